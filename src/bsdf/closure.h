@@ -1,0 +1,101 @@
+// The closures at one hit: weighted lobes, emission and transparency, each with the event that it makes.
+//
+// Shaders fill a ClosureSet; the integrator samples the mixture and asks for each lobe's own value, because a
+// direction drawn from the mixture belongs to every lobe (see docs/architecture.md, "From lobe to AOV, exactly").
+// No allocation, no virtual calls: a lobe is a std::variant of small structs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <variant>
+
+#include "bsdf/lobe.h"
+#include "bsdf/models.h"
+#include "core/event.h"
+#include "core/vec.h"
+
+namespace lightsieve {
+
+/// What the renderer needs to know of one lobe of a shader instance; made at compile, indexed by the lobe's index.
+struct LobeRecord {
+    std::uint32_t event_class = 0;             ///< scattering: the engine's class of the event
+    std::uint32_t terminal = 0;                ///< emission: the engine's terminal
+    EventKind kind = EventKind::Reflection;
+    EventLobe lobe = EventLobe::Diffuse;
+    bool subsurface = false;                   ///< scatters like TD, but counts as a subsurface ray
+};
+
+/// One weighted lobe.
+struct Closure {
+    LobeModel model;            ///< bsdf/models.h
+    Color weight;               ///< multiplies eval, sample and albedo
+    const LobeRecord* record = nullptr;
+    std::uint8_t frame = 0;     ///< into the set's frames
+    /// Specular lobes with the shader's `caustics` off are dead at vertices that a diffuse ray reached.
+    bool caustics = true;
+};
+
+struct Emission {
+    Color radiance;             ///< leaving toward wo [W/(m^2 sr)]
+    const LobeRecord* record = nullptr;
+};
+
+class ClosureSet {
+  public:
+    static constexpr std::size_t kMaxClosures = 24;
+    static constexpr std::size_t kMaxFrames = 6;
+    static constexpr std::size_t kMaxEmissions = 6;
+
+    /// Starts a hit: z of `shading` is the shading normal on the side of `wo`.
+    void begin(Vec3f wo, const Frame& shading);
+
+    // For shaders ----------------------------------------------------------------------------------------------
+    /// Lobes of the shader instance that adds from now on; set by whoever calls the shader.
+    void set_records(std::span<const LobeRecord> records) { records_ = records; }
+    [[nodiscard]] std::span<const LobeRecord> records() const { return records_; }
+    /// Factor on everything added from now on (mix_shader); starts white.
+    void set_scale(Color scale) { scale_ = scale; }
+    [[nodiscard]] Color scale() const { return scale_; }
+    /// Adds lobe number `lobe` of the shader with the hit's shading frame. Black or non-finite weights are left out.
+    void add(int lobe, const LobeModel& model, Color weight, bool caustics = true) { add(lobe, model, weight, 0, caustics); }
+    /// The same with a frame made by add_frame.
+    void add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame, bool caustics);
+    /// Registers a frame (its z on the side of wo); returns its number.
+    std::uint8_t add_frame(const Frame& frame);
+    /// Adds emission through lobe number `lobe` of the shader.
+    void emit(int lobe, Color radiance);
+    /// Adds to the part of the hit that rays pass straight through; 1 - opacity.
+    void transparent(Color weight) { transparency_ += scale_ * weight; }
+    /// The hit is a hole in the picture: black, and alpha is reduced by this.
+    void matte(Color weight) { matte_ += scale_ * weight; }
+
+    // For the integrator ---------------------------------------------------------------------------------------
+    [[nodiscard]] std::span<const Closure> closures() const { return {closures_.data(), n_}; }
+    [[nodiscard]] std::span<const Emission> emissions() const { return {emissions_.data(), n_emissions_}; }
+    [[nodiscard]] Color transparency() const { return transparency_; }
+    [[nodiscard]] Color matte() const { return matte_; }
+    /// Closures that did not fit; counted by the renderer, reported at the end.
+    [[nodiscard]] std::uint32_t n_dropped() const { return n_dropped_; }
+
+    /// Value with the closure's weight and density of closure `i` for world directions.
+    [[nodiscard]] LobeEval eval(std::size_t i, Vec3f wi) const noexcept;
+    /// Samples closure `i`; directions in world space, f with the closure's weight. `delta` lobes give weights, see LobeSample.
+    [[nodiscard]] LobeSample sample(std::size_t i, Vec2f u, float u_choice) const noexcept;
+    /// Weight times directional albedo.
+    [[nodiscard]] Color albedo(std::size_t i) const noexcept;
+    [[nodiscard]] bool delta(std::size_t i) const noexcept;
+    [[nodiscard]] Vec3f wo() const { return wo_; }
+
+  private:
+    std::array<Closure, kMaxClosures> closures_;
+    std::array<Emission, kMaxEmissions> emissions_;
+    std::array<Frame, kMaxFrames> frames_;
+    std::size_t n_ = 0, n_emissions_ = 0, n_frames_ = 0;
+    std::uint32_t n_dropped_ = 0;
+    std::span<const LobeRecord> records_;
+    Color scale_{1, 1, 1}, transparency_, matte_;
+    Vec3f wo_;
+};
+
+}  // namespace lightsieve

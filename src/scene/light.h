@@ -1,0 +1,96 @@
+// Lights: where they are, how bright toward a point, how to sample them. One class a light node.
+//
+// A light's radiance toward a point and the density with which `sample` chooses that direction are always found
+// together, so that both strategies of multiple importance sampling agree by construction.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/name.h"
+#include "core/vec.h"
+#include "scene/shape.h"
+
+namespace lightsieve {
+
+/// Parameters of every light node; `describe_light_common` (nodes/light/light_common.h) documents them.
+struct LightCommon {
+    Color color{1, 1, 1};
+    float intensity = 1, exposure = 0;
+    bool cast_shadows = true, cast_volumetric_shadows = true;
+    float shadow_density = 1;
+    Color shadow_color{0, 0, 0};
+    std::int32_t samples = 1, volume_samples = 2;
+    bool normalize = true;
+    /// Factors on what the light adds: seen directly, through transmission, by lobes, indirectly.
+    float camera = 0, transmission = 0, diffuse = 1, specular = 1, sss = 1, indirect = 1, volume = 1;
+    std::int32_t max_bounces = 999;
+    Name aov;                   ///< the light group; empty or "default": none
+    bool aov_indirect = false;  ///< skydome only: its light counts as background
+    Array<NodeRef> filters;
+    Array<Mat4f> matrix;
+    float motion_start = 0, motion_end = 1;
+
+    /// color * intensity * 2^exposure without the colour: the factor on `color`.
+    [[nodiscard]] float strength() const { return intensity * std::exp2(exposure); }
+};
+
+/// A direction toward a light.
+struct LightSample {
+    Vec3f wi;               ///< unit, from the shaded point toward the light
+    float distance = 0;     ///< to the light's surface; kInfinity for distant lights
+    Color radiance;         ///< arriving along wi [W/(m^2 sr)]; for delta lights the irradiance of a facing plane
+    float pdf = 0;          ///< per solid angle; 1 for delta lights; 0: no light comes from there
+    bool delta = false;     ///< no other strategy can find this light (point, distant without angle)
+};
+
+/// Radiance toward a point, and the density with which sample() would have chosen that direction.
+struct LightEval {
+    Color radiance;
+    float pdf = 0;  ///< per solid angle
+};
+
+/// A point on a light's geometry, met by a ray.
+struct LightHit {
+    Vec3f position;
+    Vec3f normal;             ///< unit, the geometry's outward side
+    Vec2f uv;
+    std::uint32_t primitive = 0;
+    float distance = 0;       ///< from the ray's origin
+};
+
+/// Where a light is and how much it can send where: for choosing among many lights.
+/// Source: Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting".
+struct LightBounds {
+    Box3f box;                     ///< of the emitting points
+    Vec3f axis{0, 0, 1};           ///< of the cone of normals
+    float cos_spread = -1;         ///< half angle of the cone of normals (theta_o); -1: all directions
+    float cos_emission = 0;        ///< further angle to which light leaves (theta_e); 0: a half space
+    float power = 0;               ///< emitted power as luminance [W]
+};
+
+class Light {
+  public:
+    virtual ~Light() = default;
+    /// A direction from `from` toward the light; pdf 0 if none.
+    [[nodiscard]] virtual LightSample sample(Vec3f from, Vec2f u) const = 0;
+    /// A ray from `from` met the light's geometry.
+    [[nodiscard]] virtual LightEval hit(Vec3f from, const LightHit& at) const;
+    /// A ray from anywhere left the scene along unit vector `direction`; black for lights of finite distance.
+    [[nodiscard]] virtual LightEval escape(Vec3f direction) const;
+    /// What rays can meet, in world space; null for lights without extent and for infinite ones.
+    [[nodiscard]] virtual const ShapeGeometry* geometry() const { return nullptr; }
+    /// Infinitely far: chosen apart from the others, found by rays that leave the scene.
+    [[nodiscard]] virtual bool infinite() const { return false; }
+    /// True for the skydome: seen directly by the camera it is background (B), not L.
+    [[nodiscard]] virtual bool is_skydome() const { return false; }
+    /// For finite lights.
+    [[nodiscard]] virtual LightBounds bounds() const = 0;
+    /// For infinite lights: irradiance that it can give to a facing plane, as luminance.
+    [[nodiscard]] virtual float irradiance() const { return 0; }
+};
+
+inline LightEval Light::hit(Vec3f, const LightHit&) const { return {}; }
+inline LightEval Light::escape(Vec3f) const { return {}; }
+
+}  // namespace lightsieve
