@@ -1,0 +1,90 @@
+// Chooses one light among many, so that near, bright, facing lights get most of the shadow rays.
+//
+// Finite lights lie in a binary tree whose nodes bound where their lights are, where these point and how strong they
+// are; a walk from the root takes each branch with probability proportional to an upper estimate of what it can
+// send to the shaded point. Infinite lights stand apart: their share is their irradiance compared with the estimate
+// of the whole tree. The probability of every pick can be asked for again, which MIS with rays that happen to hit a
+// light needs. No splitting: one call, one light.
+// Sources: Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting";
+// bounds without trigonometry as in Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 12.6.3.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "scene/light.h"
+
+namespace lightsieve {
+
+/// A light drawn by `LightSampler::pick`.
+struct LightPick {
+    std::uint32_t light = 0;  ///< index into the span that the sampler was made from
+    float probability = 0;    ///< of this light; 0: no light can reach the point, `light` means nothing
+    float u = 0;              ///< the rest of the random number, uniform in [0,1) again
+};
+
+class LightSampler {
+  public:
+    /// No lights: every pick has probability 0.
+    LightSampler() = default;
+    /// Chooses among all `lights`. They must outlive the sampler; black ones are never picked.
+    explicit LightSampler(std::span<const Light* const> lights);
+    /// Chooses only among `lights[i]` for i in `subset` (a shape's light_group); picks keep the indices of `lights`.
+    LightSampler(std::span<const Light* const> lights, std::span<const std::uint32_t> subset);
+
+    /// Draws a light.
+    ///
+    /// position  world space
+    /// normal    unit shading normal on the side that light must come from; the zero vector where light from both
+    ///           sides counts: volumes, transmissive surfaces, lobes with normals of their own
+    /// u         in [0,1)
+    /// Never misses a light that can contribute: probability 0 only where a bound proves darkness.
+    [[nodiscard]] LightPick pick(Vec3f position, Vec3f normal, float u) const noexcept;
+    /// The probability with which `pick` gives `light` there: the same arithmetic, so exactly the same number.
+    [[nodiscard]] float probability(Vec3f position, Vec3f normal, std::uint32_t light) const noexcept;
+    /// Whether any light can be picked at all.
+    [[nodiscard]] bool empty() const noexcept { return nodes_.empty() && infinite_.empty(); }
+
+  private:
+    /// Bounds of a set of lights. 48 bytes of floats and two of structure: one cache line.
+    struct Node {
+        Vec3f center;             ///< of the bounding sphere
+        float radius = 0;         ///< of the bounding sphere
+        Vec3f axis{0, 0, 1};      ///< of the cone of normals
+        float cos_spread = -1, sin_spread = 0;      ///< half angle of the cone of normals
+        float cos_emission = 0, sin_emission = 1;   ///< further angle to which light leaves
+        float intensity = 0;      ///< sum over the lights [W/sr]
+        std::uint32_t right = 0;  ///< second child, the first one follows its parent; 0: a leaf
+        std::uint32_t light = 0;  ///< of a leaf: index into the caller's span
+    };
+    /// A light without place: a cone of directions from which light comes.
+    struct Infinite {
+        Vec3f axis{0, 0, 1};      ///< in which its light travels
+        float cos_spread = -1, sin_spread = 0;
+        float irradiance = 0;
+        std::uint32_t light = 0;
+    };
+    struct Builder;
+
+    static float importance(const Node& node, Vec3f position, Vec3f normal) noexcept;
+    static float importance(const Infinite& light, Vec3f normal) noexcept;
+    /// What the children of the root can send, or the root itself if it is a leaf.
+    float tree_importance(Vec3f position, Vec3f normal) const noexcept;
+    /// Chance of walking down the tree rather than taking an infinite light.
+    static float tree_probability(float tree, float infinite) noexcept;
+
+    std::vector<Node> nodes_;         ///< depth first; the root is number 0
+    std::vector<Infinite> infinite_;
+    /// How to reach each light of the caller's span; what `probability` follows.
+    struct Place {
+        std::uint64_t path = 0;       ///< turns from the root to the leaf, lowest bit first: 1 is right
+        std::int32_t infinite = -1;   ///< position in `infinite_`
+        bool present = false;         ///< can be picked
+        bool in_tree = false;
+    };
+    std::vector<Place> places_;
+};
+
+}  // namespace lightsieve
