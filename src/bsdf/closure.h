@@ -21,6 +21,7 @@ namespace lightsieve {
 struct LobeRecord {
     std::uint32_t event_class = 0;             ///< scattering: the engine's class of the event
     std::uint32_t terminal = 0;                ///< emission: the engine's terminal
+    std::uint32_t event = 0;                   ///< position in the scene's list of events, for logs
     EventKind kind = EventKind::Reflection;
     EventLobe lobe = EventLobe::Diffuse;
     bool subsurface = false;                   ///< scatters like TD, but counts as a subsurface ray

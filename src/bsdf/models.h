@@ -1,0 +1,27 @@
+// Every lobe model that a closure can hold, as one closed set.
+//
+// A new model is one .h/.cpp pair (see lobe.h for its four functions), one line here and one row in the tests'
+// all_lobe_cases(). Constructors clamp and replace what is not finite, so that textures may feed them anything.
+// Keep the models small: a ClosureSet holds 24 of them.
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+#include "bsdf/conductor.h"
+#include "bsdf/dielectric.h"
+#include "bsdf/diffuse.h"
+#include "bsdf/schlick.h"
+#include "bsdf/sheen.h"
+#include "bsdf/thin_transmit.h"
+
+namespace lightsieve {
+
+/// One lobe; the first alternative is the cheapest to default-construct.
+using LobeModel = std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit, ThinTransmit,
+                               ConductorReflect, SchlickReflect, SheenReflect>;
+
+static_assert(std::is_trivially_copyable_v<LobeModel>);
+static_assert(sizeof(LobeModel) <= 64, "closures are copied at every hit");
+
+}  // namespace lightsieve
