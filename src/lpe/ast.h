@@ -77,17 +77,14 @@ struct Angle {
 struct Brackets {
     bool negated = false;
     std::vector<Expr> items;
-    friend bool operator==(const Brackets& a, const Brackets& b);
 };
 /// Two or more parts, one after the other.
 struct Sequence {
     std::vector<Expr> parts;
-    friend bool operator==(const Sequence& a, const Sequence& b);
 };
 /// Two or more parts, one of which is taken.
 struct Alternation {
     std::vector<Expr> parts;
-    friend bool operator==(const Alternation& a, const Alternation& b);
 };
 /// `body{min,max}`; `*` is {0,}, `+` is {1,}, `?` is {0,1}.
 struct Repeat {
@@ -95,7 +92,6 @@ struct Repeat {
     Expr body;
     std::uint32_t min = 0;
     std::uint32_t max = kUnbounded;
-    friend bool operator==(const Repeat& a, const Repeat& b);
 };
 
 struct Node {
@@ -103,7 +99,7 @@ struct Node {
     SourceSpan where{};  ///< the node's text; unknown for trees that were built, not read
 };
 
-/// Same tree; places and null pointers do not matter (null equals only null).
+/// Same tree; places do not matter. Null equals only null.
 [[nodiscard]] bool equal(const Expr& a, const Expr& b);
 
 /// Does the node test a single event (a letter, `.`, a label, `<..>`, `[..]`)?
@@ -116,7 +112,8 @@ void for_each_node(const Node& node, const Visit& visit);
 /// An expression with its name, as options.light_path_expressions defines it.
 struct NamedExpr {
     std::string name;
-    Expr expr;
+    std::string text;  ///< as written
+    Expr expr;         ///< null if the text has an error
 };
 
 }  // namespace lightsieve::lpe
