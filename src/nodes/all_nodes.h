@@ -5,7 +5,10 @@
 
 namespace lightsieve {
 
-/// Adds all built-in nodes. Called once by `Registry::builtin()`.
+/// Adds all built-in nodes.
 void add_all_nodes(Registry& registry);
+
+/// The built-in nodes; lives until the program ends. Thread safe.
+[[nodiscard]] const Registry& builtin_registry();
 
 }  // namespace lightsieve
