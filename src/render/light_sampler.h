@@ -48,43 +48,48 @@ class LightSampler {
     [[nodiscard]] bool empty() const noexcept { return nodes_.empty() && infinite_.empty(); }
 
   private:
-    /// Bounds of a set of lights. 48 bytes of floats and two of structure: one cache line.
+    /// Bounds of a set of lights; fits a cache line.
     struct Node {
         Vec3f center;             ///< of the bounding sphere
         float radius = 0;         ///< of the bounding sphere
         Vec3f axis{0, 0, 1};      ///< of the cone of normals
-        float cos_spread = -1, sin_spread = 0;      ///< half angle of the cone of normals
-        float cos_emission = 0, sin_emission = 1;   ///< further angle to which light leaves
+        float cos_spread = -1;    ///< half angle of the cone of normals
+        float sin_spread = 0;     ///< the same
+        float cos_emission = 0;   ///< further angle to which light leaves
         float intensity = 0;      ///< sum over the lights [W/sr]
-        std::uint32_t right = 0;  ///< second child, the first one follows its parent; 0: a leaf
+        std::uint32_t right = 0;  ///< second child; the first one follows its parent; 0: a leaf
         std::uint32_t light = 0;  ///< of a leaf: index into the caller's span
     };
-    /// A light without place: a cone of directions from which light comes.
+    /// A light without place: a cone of directions in which its light travels.
     struct Infinite {
-        Vec3f axis{0, 0, 1};      ///< in which its light travels
-        float cos_spread = -1, sin_spread = 0;
-        float irradiance = 0;
-        std::uint32_t light = 0;
+        Vec3f axis{0, 0, 1};      ///< of the cone
+        float cos_spread = -1;    ///< half angle of the cone
+        float sin_spread = 0;     ///< the same
+        float irradiance = 0;     ///< of a facing plane [W/m^2]
+        std::uint32_t light = 0;  ///< index into the caller's span
+    };
+    /// How to reach a light of the caller's span.
+    struct Place {
+        enum class Kind : std::uint8_t { Absent, Tree, Infinite };
+        Kind kind = Kind::Absent;  ///< absent lights are never picked
+        std::uint64_t path = 0;    ///< Tree: turns from the root, lowest bit first, 1 is right; Infinite: position
     };
     struct Builder;
 
     static float importance(const Node& node, Vec3f position, Vec3f normal) noexcept;
     static float importance(const Infinite& light, Vec3f normal) noexcept;
+    [[nodiscard]] float infinite_importance(Vec3f normal) const noexcept;
     /// What the children of the root can send, or the root itself if it is a leaf.
-    float tree_importance(Vec3f position, Vec3f normal) const noexcept;
+    [[nodiscard]] float tree_importance(Vec3f position, Vec3f normal) const noexcept;
     /// Chance of walking down the tree rather than taking an infinite light.
     static float tree_probability(float tree, float infinite) noexcept;
+    /// The two halves of `pick`; `so_far` has the probability and the random number that are left.
+    [[nodiscard]] LightPick pick_finite(Vec3f position, Vec3f normal, LightPick so_far) const noexcept;
+    [[nodiscard]] LightPick pick_infinite(Vec3f normal, float sum, LightPick so_far) const noexcept;
 
     std::vector<Node> nodes_;         ///< depth first; the root is number 0
-    std::vector<Infinite> infinite_;
-    /// How to reach each light of the caller's span; what `probability` follows.
-    struct Place {
-        std::uint64_t path = 0;       ///< turns from the root to the leaf, lowest bit first: 1 is right
-        std::int32_t infinite = -1;   ///< position in `infinite_`
-        bool present = false;         ///< can be picked
-        bool in_tree = false;
-    };
-    std::vector<Place> places_;
+    std::vector<Infinite> infinite_;  ///< in the caller's order
+    std::vector<Place> places_;       ///< one for each light of the caller's span
 };
 
 }  // namespace lightsieve

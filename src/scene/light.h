@@ -66,7 +66,7 @@ struct LightBounds {
     Vec3f axis{0, 0, 1};           ///< of the cone of normals
     float cos_spread = -1;         ///< half angle of the cone of normals (theta_o); -1: all directions
     float cos_emission = 0;        ///< further angle to which light leaves (theta_e); 0: a half space
-    float power = 0;               ///< emitted power as luminance [W]
+    float intensity = 0;           ///< largest radiant intensity in any direction, mean of the channels [W/sr]
 };
 
 class Light {
@@ -84,9 +84,9 @@ class Light {
     [[nodiscard]] virtual bool infinite() const { return false; }
     /// True for the skydome: seen directly by the camera it is background (B), not L.
     [[nodiscard]] virtual bool is_skydome() const { return false; }
-    /// For finite lights.
+    /// Infinite lights: only `axis`, in which their light travels, and `cos_spread`, the cone around it.
     [[nodiscard]] virtual LightBounds bounds() const = 0;
-    /// For infinite lights: irradiance that it can give to a facing plane, as luminance.
+    /// For infinite lights: irradiance that it can give to a facing plane, mean of the channels [W/m^2].
     [[nodiscard]] virtual float irradiance() const { return 0; }
 };
 
