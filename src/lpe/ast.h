@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -105,9 +106,22 @@ struct Node {
 /// Does the node test a single event (a letter, `.`, a label, `<..>`, `[..]`)?
 [[nodiscard]] bool is_event_test(const Node& node);
 
-/// Calls `visit(node)` for the node and everything below it, parents first.
+/// What the node is directly made of; nothing for a letter, `.`, a label and `<..>`.
+[[nodiscard]] std::span<const Expr> children(const Node& node);
+
+/// Calls `visit(node)` for the node and everything below it, parents first, left to right.
 template <class Visit>
-void for_each_node(const Node& node, const Visit& visit);
+void for_each_node(const Node& node, const Visit& visit) {
+    visit(node);
+    for (const Expr& child : children(node)) for_each_node(*child, visit);
+}
+
+/// Calls `visit(test)` for every test of a single event, left to right; `[..]` is one test, not its items.
+template <class Visit>
+void for_each_event_test(const Node& node, const Visit& visit) {
+    if (is_event_test(node)) return visit(node);
+    for (const Expr& child : children(node)) for_each_event_test(*child, visit);
+}
 
 /// An expression with its name, as options.light_path_expressions defines it.
 struct NamedExpr {
@@ -115,24 +129,5 @@ struct NamedExpr {
     std::string text;  ///< as written
     Expr expr;         ///< null if the text has an error
 };
-
-}  // namespace lightsieve::lpe
-
-// ---- inline ----
-namespace lightsieve::lpe {
-
-template <class Visit>
-void for_each_node(const Node& node, const Visit& visit) {
-    visit(node);
-    if (const auto* brackets = std::get_if<Brackets>(&node.form)) {
-        for (const Expr& item : brackets->items) for_each_node(*item, visit);
-    } else if (const auto* sequence = std::get_if<Sequence>(&node.form)) {
-        for (const Expr& part : sequence->parts) for_each_node(*part, visit);
-    } else if (const auto* alternation = std::get_if<Alternation>(&node.form)) {
-        for (const Expr& part : alternation->parts) for_each_node(*part, visit);
-    } else if (const auto* repeat = std::get_if<Repeat>(&node.form)) {
-        for_each_node(*repeat->body, visit);
-    }
-}
 
 }  // namespace lightsieve::lpe

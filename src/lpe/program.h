@@ -27,6 +27,7 @@
 #include "core/diagnostics.h"
 #include "core/event.h"
 #include "lpe/ast.h"
+#include "lpe/limits.h"
 
 namespace lightsieve::lpe {
 
@@ -57,15 +58,6 @@ struct AovRequest {
     Expr expr;                              ///< null: takes nothing, the AOV is black
     GroupSelect select = GroupSelect::All;
     std::string group{};                    ///< for GroupSelect::Named; `default` means GroupSelect::Default
-};
-
-/// Budgets of one compilation. A set of expressions that exceeds one is split; a single expression is an error.
-struct Limits {
-    std::size_t max_states = 100'000;                         ///< states of one automaton, before minimisation
-    std::size_t max_steps = 5'000'000;                        ///< derivative steps of one automaton
-    std::size_t max_nodes = 1'000'000;                        ///< nodes of derived expressions
-    std::size_t max_table_bytes = std::size_t{256} << 20U;    ///< transition and atom table of one automaton [bytes]
-    std::size_t max_automata = 64;                            ///< automata stepped together
 };
 
 /// One automaton over the program's common alphabet. Immutable; safe to share between threads.
@@ -104,8 +96,7 @@ class Automaton {
     std::vector<std::uint32_t> table_;
     std::size_t stride_ = 1;
     State start_ = kDead;
-    std::vector<std::uint32_t> live_set_of_state_;  ///< per state index: row of live_sets_
-    std::vector<std::uint64_t> live_sets_;          ///< bit sets of AOV indices, live_words_ words each
+    std::vector<std::uint64_t> live_sets_;  ///< per state index: a bit set of AOVs, live_words_ words
     std::size_t live_words_ = 0;
 };
 

@@ -1,0 +1,50 @@
+#include "lpe/ast.h"
+
+#include <algorithm>
+
+namespace lightsieve::lpe {
+namespace {
+
+bool equal_all(const std::vector<Expr>& a, const std::vector<Expr>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), equal);
+}
+
+bool same(const Brackets& a, const Brackets& b) {
+    return a.negated == b.negated && equal_all(a.items, b.items);
+}
+bool same(const Sequence& a, const Sequence& b) { return equal_all(a.parts, b.parts); }
+bool same(const Alternation& a, const Alternation& b) { return equal_all(a.parts, b.parts); }
+bool same(const Repeat& a, const Repeat& b) {
+    return a.min == b.min && a.max == b.max && equal(a.body, b.body);
+}
+template <class Leaf>
+bool same(const Leaf& a, const Leaf& b) {
+    return a == b;
+}
+
+}  // namespace
+
+bool equal(const Expr& a, const Expr& b) {
+    if (a == b) return true;
+    if (!a || !b || a->form.index() != b->form.index()) return false;
+    const auto same_as_b = [&](const auto& form) {
+        return same(form, std::get<std::decay_t<decltype(form)>>(b->form));
+    };
+    return std::visit(same_as_b, a->form);
+}
+
+std::span<const Expr> children(const Node& node) {
+    if (const auto* brackets = std::get_if<Brackets>(&node.form)) return brackets->items;
+    if (const auto* sequence = std::get_if<Sequence>(&node.form)) return sequence->parts;
+    if (const auto* alternation = std::get_if<Alternation>(&node.form)) return alternation->parts;
+    if (const auto* repeat = std::get_if<Repeat>(&node.form)) return {&repeat->body, 1};
+    return {};
+}
+
+bool is_event_test(const Node& node) {
+    return !std::holds_alternative<Sequence>(node.form) &&
+           !std::holds_alternative<Alternation>(node.form) &&
+           !std::holds_alternative<Repeat>(node.form);
+}
+
+}  // namespace lightsieve::lpe

@@ -1,0 +1,181 @@
+#include "lpe/term.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lightsieve::lpe {
+namespace {
+
+constexpr TermId kUnknown = UINT32_MAX;
+/// A node is at most four words, but for alternations, whose parts count as nodes of their own.
+constexpr std::size_t kWordsPerNode = 4;
+
+}  // namespace
+
+TermPool::TermPool(const Alphabet& alphabet, const Limits& limits)
+    : alphabet_(alphabet), limits_(limits) {
+    store(std::array<std::uint32_t, 1>{kNothingKind}, false);
+    store(std::array<std::uint32_t, 1>{kEmptyKind}, true);
+}
+
+// ---- making terms in normal form ----
+
+TermId TermPool::store(std::span<const std::uint32_t> words, bool nullable) {
+    const TermId term = terms_.intern(words);
+    if (term < nullable_.size()) return term;
+    nullable_.push_back(nullable ? 1 : 0);
+    memo_row_.push_back(0);
+    if (terms_.n_words() > limits_.max_nodes * kWordsPerNode)
+        throw OverBudget{Code::LimitLpeNodes,
+                         "needs more than " + std::to_string(limits_.max_nodes) +
+                             " nodes of derived expressions",
+                         "max_nodes"};
+    return term;
+}
+
+TermId TermPool::make_set(std::span<const std::uint32_t> classes) {
+    const bool none = std::ranges::all_of(classes, [](std::uint32_t word) { return word == 0; });
+    if (none) return kNothing;
+    return store(std::array<std::uint32_t, 2>{kSetKind, sets_.intern(classes)}, false);
+}
+
+/// Nothing absorbs, the empty path vanishes, (ab)c becomes a(bc).
+TermId TermPool::make_sequence(TermId head, TermId tail) {
+    if (head == kNothing || tail == kNothing) return kNothing;
+    if (head == kEmpty) return tail;
+    if (tail == kEmpty) return head;
+    std::vector<TermId> heads;
+    for (; kind(head) == kSequenceKind; head = field(head, 2)) heads.push_back(field(head, 1));
+    heads.push_back(head);
+    for (std::size_t i = heads.size(); i-- > 0;) {
+        const bool nullable = accepts_empty(heads[i]) && accepts_empty(tail);
+        tail = store(std::array<std::uint32_t, 3>{kSequenceKind, heads[i], tail}, nullable);
+    }
+    return tail;
+}
+
+/// Flattened, single events united to one set, sorted, without duplicates. Uses `parts` as scratch space.
+TermId TermPool::make_alternation(std::vector<TermId>& parts) {
+    std::vector<std::uint32_t> classes(alphabet_.n_words(), 0);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const TermId part = parts[i];
+        if (kind(part) == kAlternationKind) {
+            const std::span<const std::uint32_t> inner = terms_[part].subspan(1);
+            parts.insert(parts.end(), inner.begin(), inner.end());
+            parts[i] = kNothing;
+        } else if (kind(part) == kSetKind) {
+            const std::span<const std::uint32_t> set = sets_[field(part, 1)];
+            for (std::size_t w = 0; w < classes.size(); ++w) classes[w] |= set[w];
+            parts[i] = kNothing;
+        }
+    }
+    parts.push_back(make_set(classes));
+    std::ranges::sort(parts);
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    std::erase(parts, kNothing);
+    // Ending here is already possible if another part allows it.
+    const auto ends = [&](TermId part) { return part != kEmpty && accepts_empty(part); };
+    if (std::ranges::any_of(parts, ends)) std::erase(parts, kEmpty);
+    count_steps(parts.size());
+    if (parts.empty()) return kNothing;
+    if (parts.size() == 1) return parts[0];
+    const bool nullable =
+        std::ranges::any_of(parts, [&](TermId part) { return accepts_empty(part); });
+    parts.insert(parts.begin(), kAlternationKind);
+    return store(parts, nullable);
+}
+
+TermId TermPool::make_repeat(TermId body, std::uint32_t min, std::uint32_t max) {
+    if (max == 0 || body == kEmpty) return kEmpty;
+    if (body == kNothing) return min == 0 ? kEmpty : kNothing;
+    if (min == 1 && max == 1) return body;
+    // Repeating what may be empty: every count up to max is possible.
+    if (accepts_empty(body)) min = 0;
+    return store(std::array<std::uint32_t, 4>{kRepeatKind, body, min, max}, min == 0);
+}
+
+TermId TermPool::lower(const Expr& expr) { return expr ? lower_node(*expr) : kNothing; }
+
+TermId TermPool::lower_node(const Node& node) {
+    if (is_event_test(node)) return make_set(alphabet_.taken_by(node));
+    if (const auto* repeat = std::get_if<Repeat>(&node.form))
+        return make_repeat(lower(repeat->body), repeat->min, repeat->max);
+    std::vector<TermId> parts;
+    for (const Expr& child : children(node)) parts.push_back(lower(child));
+    if (std::holds_alternative<Alternation>(node.form)) return make_alternation(parts);
+    TermId sequence = kEmpty;
+    for (std::size_t i = parts.size(); i-- > 0;) sequence = make_sequence(parts[i], sequence);
+    return sequence;
+}
+
+// ---- derivatives ----
+
+void TermPool::count_steps(std::size_t n) {
+    n_steps_ += n;
+    if (n_steps_ > limits_.max_steps)
+        throw OverBudget{Code::LimitLpeSteps,
+                         "needs more than " + std::to_string(limits_.max_steps) +
+                             " derivative steps",
+                         "max_steps"};
+}
+
+TermId TermPool::derive(TermId term, EventClass c) {
+    if (term <= kEmpty) return kNothing;
+    if (memo_row_[term] == 0) {
+        memo_.resize(memo_.size() + alphabet_.n_classes(), kUnknown);
+        memo_row_[term] = static_cast<std::uint32_t>(memo_.size() / alphabet_.n_classes());
+    }
+    const std::size_t slot = (memo_row_[term] - 1) * alphabet_.n_classes() + c;
+    if (memo_[slot] == kUnknown) {
+        const TermId derivative = derive_now(term, c);
+        memo_[slot] = derivative;
+    }
+    return memo_[slot];
+}
+
+TermId TermPool::derive_now(TermId term, EventClass c) {
+    count_steps(1);
+    switch (kind(term)) {
+        case kSetKind: {
+            const bool taken = (sets_[field(term, 1)][c / 32] >> (c % 32) & 1U) != 0;
+            return taken ? kEmpty : kNothing;
+        }
+        case kSequenceKind: return derive_sequence(term, c);
+        case kAlternationKind: return derive_alternation(term, c);
+        case kRepeatKind: return derive_repeat(term, c);
+        default: return kNothing;
+    }
+}
+
+/// The head moves on, or, if it may be empty, the tail. A loop along the tails, so that long sequences need no stack.
+TermId TermPool::derive_sequence(TermId term, EventClass c) {
+    std::vector<TermId> parts;
+    TermId rest = term;
+    for (; kind(rest) == kSequenceKind; rest = field(rest, 2)) {
+        const TermId head = field(rest, 1), tail = field(rest, 2);
+        const TermId moved = derive(head, c);
+        parts.push_back(make_sequence(moved, tail));
+        if (!accepts_empty(head)) return make_alternation(parts);
+    }
+    parts.push_back(derive(rest, c));
+    return make_alternation(parts);
+}
+
+TermId TermPool::derive_alternation(TermId term, EventClass c) {
+    std::vector<TermId> parts;
+    for (std::size_t i = 1; i < terms_[term].size(); ++i) parts.push_back(derive(field(term, i), c));
+    return make_alternation(parts);
+}
+
+/// One round moves on, the others are left. That also holds where a round may be empty, as min is 0 then.
+TermId TermPool::derive_repeat(TermId term, EventClass c) {
+    const TermId body = field(term, 1);
+    const std::uint32_t min = field(term, 2), max = field(term, 3);
+    const TermId moved = derive(body, c);
+    if (moved == kNothing) return kNothing;
+    const TermId others = make_repeat(body, min == 0 ? 0 : min - 1,
+                                      max == Repeat::kUnbounded ? max : max - 1);
+    return make_sequence(moved, others);
+}
+
+}  // namespace lightsieve::lpe

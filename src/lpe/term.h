@@ -1,0 +1,74 @@
+// Regular expressions over event classes, and their derivatives.
+//
+// The derivative of an expression by a class is the expression for what may follow once an event of that class has been
+// seen; an automaton's states are nothing but derivatives. Terms are stored once and kept in a normal form (alternatives
+// sorted and without duplicates, sequences nested to the right), which makes their number finite and small.
+// Repeats {n,m} stay symbolic: they count down instead of being unrolled.
+// Source: Owens, Reppy, Turon, "Regular-expression derivatives re-examined", JFP 19 (2009).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lpe/alphabet.h"
+#include "lpe/ast.h"
+#include "lpe/interner.h"
+#include "lpe/limits.h"
+
+namespace lightsieve::lpe {
+
+using TermId = std::uint32_t;
+
+/// All terms of one compilation or proof. Every method that makes terms throws OverBudget when a limit is exceeded.
+class TermPool {
+  public:
+    static constexpr TermId kNothing = 0;  ///< takes no path
+    static constexpr TermId kEmpty = 1;    ///< takes the path of no events
+
+    /// The alphabet must have been made from every expression that will be lowered, and must outlive the pool.
+    TermPool(const Alphabet& alphabet, const Limits& limits);
+
+    /// The expression as a term; null is kNothing.
+    [[nodiscard]] TermId lower(const Expr& expr);
+    /// What may follow an event of class c. Remembered: asking twice costs one load.
+    [[nodiscard]] TermId derive(TermId term, EventClass c);
+    /// May the path end here?
+    [[nodiscard]] bool accepts_empty(TermId term) const { return nullable_[term] != 0; }
+    /// May the path end with one more event of class c?
+    [[nodiscard]] bool accepts(TermId term, EventClass c) { return accepts_empty(derive(term, c)); }
+    /// Counts work that callers do for each derivative they ask for, against the same budget.
+    void count_steps(std::size_t n);
+
+    [[nodiscard]] std::size_t n_steps() const { return n_steps_; }
+    [[nodiscard]] const Alphabet& alphabet() const { return alphabet_; }
+
+  private:
+    enum Kind : std::uint32_t { kNothingKind, kEmptyKind, kSetKind, kSequenceKind, kAlternationKind, kRepeatKind };
+
+    [[nodiscard]] Kind kind(TermId term) const { return static_cast<Kind>(terms_[term][0]); }
+    [[nodiscard]] std::uint32_t field(TermId term, std::size_t i) const { return terms_[term][i]; }
+
+    TermId store(std::span<const std::uint32_t> words, bool nullable);
+    TermId make_set(std::span<const std::uint32_t> classes);
+    TermId make_sequence(TermId head, TermId tail);
+    TermId make_alternation(std::vector<TermId>& parts);
+    TermId make_repeat(TermId body, std::uint32_t min, std::uint32_t max);
+    TermId lower_node(const Node& node);
+    TermId derive_now(TermId term, EventClass c);
+    TermId derive_sequence(TermId term, EventClass c);
+    TermId derive_alternation(TermId term, EventClass c);
+    TermId derive_repeat(TermId term, EventClass c);
+
+    const Alphabet& alphabet_;
+    Limits limits_;
+    Interner terms_;                      ///< kind, then its fields
+    Interner sets_;                       ///< bit sets of classes
+    std::vector<std::uint8_t> nullable_;  ///< per term
+    std::vector<std::uint32_t> memo_row_;  ///< per term: its row of memo_ plus 1, or 0
+    std::vector<TermId> memo_;             ///< derivatives by each class, or kUnknown
+    std::size_t n_steps_ = 0;
+};
+
+}  // namespace lightsieve::lpe
