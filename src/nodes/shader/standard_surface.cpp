@@ -1,0 +1,352 @@
+// standard_surface: the layered surface of Arnold and MaterialX.
+//
+// Layers from the top: opacity, coat, emission, metal or specular reflection, transmission or sheen over the diffuse
+// base. What a layer lets through to those below is one colour, `left_`, taken for the view direction (not
+// reciprocal, as the specification wants it). Source: Georgiev et al., "Autodesk Standard Surface" 1.0.1, section 4.
+#include <cmath>
+
+#include "bsdf/closure.h"
+#include "nodes/shader/shader_common.h"
+#include "scene/describe.h"
+#include "scene/node_context.h"
+
+namespace lightsieve {
+namespace {
+
+enum class SubsurfaceType : std::int32_t { Diffusion, Randomwalk, RandomwalkV2 };
+
+/// Indices of the lobes, in the order of description.
+enum Lobes : int { kDiffuse, kSheen, kSpecular, kMetal, kCoat, kTransmission, kSubsurface, kEmission };
+
+struct StandardSurface {
+    float base = 1;
+    Color base_color{0.8F, 0.8F, 0.8F};
+    float diffuse_roughness = 0, metalness = 0;
+    float specular = 1;
+    Color specular_color{1, 1, 1};
+    float specular_roughness = 0.2F, specular_IOR = 1.5F, specular_anisotropy = 0, specular_rotation = 0;
+    float transmission = 0;
+    Color transmission_color{1, 1, 1};
+    float transmission_depth = 0;
+    Color transmission_scatter{0, 0, 0};
+    float transmission_scatter_anisotropy = 0, transmission_dispersion = 0, transmission_extra_roughness = 0;
+    float transmission_shadow_density = 0.5F;
+    bool transmit_aovs = false;
+    std::int32_t dielectric_priority = 0;
+    float subsurface = 0;
+    Color subsurface_color{1, 1, 1}, subsurface_radius{1, 1, 1};
+    float subsurface_scale = 1, subsurface_anisotropy = 0;
+    SubsurfaceType subsurface_type = SubsurfaceType::Randomwalk;
+    float sheen = 0;
+    Color sheen_color{1, 1, 1};
+    float sheen_roughness = 0.3F;
+    bool thin_walled = false;
+    float coat = 0;
+    Color coat_color{1, 1, 1};
+    float coat_roughness = 0.1F, coat_IOR = 1.5F, coat_anisotropy = 0, coat_rotation = 0;
+    float coat_affect_color = 0, coat_affect_roughness = 0;
+    float thin_film_thickness = 0, thin_film_IOR = 1.5F;
+    float emission = 0;
+    Color emission_color{1, 1, 1}, opacity{1, 1, 1};
+    /// World space; 0 0 0: the hit's own. Act only when linked: prepare() clears values that the file wrote.
+    Vec3f normal{0, 0, 0}, coat_normal{0, 0, 0}, tangent{0, 0, 0};
+    bool caustics = false, internal_reflections = true, exit_to_background = false;
+    float indirect_diffuse = 1, indirect_specular = 1;
+    Name aov_id1, aov_id2, aov_id3, aov_id4, aov_id5, aov_id6, aov_id7, aov_id8;
+    Color id1, id2, id3, id4, id5, id6, id7, id8;
+
+    static NodeType describe();
+    void prepare(NodeContext& context);
+    void eval(const ShadePoint& at, ClosureSet& out) const;
+};
+
+// Layers ------------------------------------------------------------------------------------------------------------
+
+/// One evaluation: walks down the layers and adds their lobes.
+class Layering {
+  public:
+    Layering(const StandardSurface& s, const ShadePoint& at, ClosureSet& out, Color visible)
+        : s_(s),
+          at_(at),
+          out_(out),
+          left_(visible),
+          coat_(unit(s.coat)),
+          transmission_(unit(s.transmission)),
+          inside_(!at.entering && !s.thin_walled && transmission_ > 0),
+          base_(oriented(s.normal, 0, 0)) {}
+
+    /// coat * coat_brdf, then lerp(1, coat_color * (1 - R), coat) for all below.
+    void add_coat() {
+        if (!(coat_ > 0)) return;
+        Color through = unit(s_.coat_color);
+        // Seen from inside of a transparent body the coat only tints: its reflection is on the other side.
+        if (!inside_) {
+            const Oriented frame = oriented(s_.coat_normal, s_.coat_anisotropy, s_.coat_rotation);
+            const LobeModel model = reflection(GgxAlpha::from_roughness(unit(s_.coat_roughness), s_.coat_anisotropy), s_.coat_IOR);
+            through *= complement(kWhite, model, frame);
+            out_.add(kCoat, model, left_ * coat_, frame.index, s_.caustics);
+        }
+        left_ *= lerp(kWhite, through, coat_);
+    }
+
+    void add_emission() {
+        const Color radiance = left_ * (positive(s_.emission) * positive(s_.emission_color));
+        if (!is_black(radiance)) out_.emit(kEmission, radiance);
+    }
+
+    /// metalness * metal_brdf + (1 - metalness) * ...
+    void add_metal() {
+        const float metalness = unit(s_.metalness);
+        if (metalness > 0) {
+            const Color reflectivity = unit(positive(s_.base) * positive(s_.base_color));
+            const Color edge_tint = unit(positive(s_.specular) * positive(s_.specular_color));
+            out_.add(kMetal, ConductorReflect::from_artistic(specular_alpha(roughness(0)), reflectivity, edge_tint),
+                     left_ * metalness, specular_frame().index, s_.caustics);
+        }
+        left_ *= 1 - metalness;
+    }
+
+    /// specular * specular_color * spec_brdf + (1 - specular * specular_color * R) * ...
+    void add_specular() {
+        const Color weight = positive(s_.specular) * positive(s_.specular_color);
+        if (is_black(weight) || is_black(left_)) return;
+        const LobeModel model = reflection(specular_alpha(roughness(0)), relative_ior());
+        const Oriented frame = specular_frame();
+        if (!inside_ || s_.internal_reflections) out_.add(kSpecular, model, left_ * weight, frame.index, s_.caustics);
+        left_ *= complement(weight, model, frame);
+    }
+
+    /// transmission * transmission_color * spec_btdf + (1 - transmission) * ...
+    void add_transmission() {
+        if (transmission_ > 0 && !is_black(left_)) {
+            const Color weight = left_ * (transmission_ * positive(s_.transmission_color));
+            const GgxAlpha alpha = specular_alpha(roughness(s_.transmission_extra_roughness));
+            const LobeModel model = s_.thin_walled ? LobeModel(ThinTransmit(alpha)) : LobeModel(DielectricTransmit(alpha, relative_ior()));
+            out_.add(kTransmission, model, weight, specular_frame().index, s_.caustics);
+        }
+        left_ *= 1 - transmission_;
+    }
+
+    /// sheen * sheen_color * sheen_brdf + (1 - sheen * R) * ...
+    void add_sheen() {
+        const float sheen = unit(s_.sheen);
+        if (!(sheen > 0) || is_black(left_)) return;
+        const LobeModel model = SheenReflect(s_.sheen_roughness);
+        out_.add(kSheen, model, left_ * (sheen * positive(s_.sheen_color)), base_.index, s_.caustics);
+        left_ *= complement(Color::grey(sheen), model, base_);
+    }
+
+    /// (1 - subsurface) * base * base_color * diffuse_brdf + subsurface * subsurface_mix
+    void add_base() {
+        if (is_black(left_)) return;
+        const float subsurface = unit(s_.subsurface);
+        // Rough diffuse reflection depends on its colour, so the colour is the model's and not the weight's.
+        const Color reflectance = positive(s_.base) * darkened(s_.base_color);
+        if (subsurface < 1 && !is_black(reflectance))
+            out_.add(kDiffuse, DiffuseReflect(reflectance, s_.diffuse_roughness), left_ * (1 - subsurface), base_.index, true);
+        if (!(subsurface > 0)) return;
+        const Color color = darkened(s_.subsurface_color);
+        const LobeModel model = s_.thin_walled ? LobeModel(DiffuseTransmit(color, s_.diffuse_roughness))
+                                               : LobeModel(DiffuseReflect(color, s_.diffuse_roughness));
+        out_.add(kSubsurface, model, left_ * subsurface, base_.index, true);
+    }
+
+  private:
+    /// A frame of the closure set.
+    struct Oriented {
+        std::uint8_t index;
+        Vec3f wo;  ///< local
+    };
+
+    /// Frame around the parameter's normal (0 0 0: the hit's), its x axis turned for anisotropy.
+    [[nodiscard]] Oriented oriented(Vec3f linked_normal, float anisotropy, float rotation) {
+        const bool own_normal = !(linked_normal == Vec3f{});
+        if (!own_normal && !(anisotropy > 0)) return {0, {0, 0, std::clamp(dot(at_.normal, at_.wo), kMinFacing, 1.0F)}};
+        const Vec3f n = shading_normal(at_, linked_normal);
+        Frame frame = Frame::from_z_x(n, s_.tangent == Vec3f{} ? at_.tangent : s_.tangent);
+        // A full turn for rotation = 1, from x toward -y: standard_surface's OSL reference.
+        if (const float angle = 2 * kPi * rotation; angle != 0 && std::isfinite(angle))
+            frame = Frame::from_z_x(n, frame.x * std::cos(angle) - frame.y * std::sin(angle));
+        Vec3f wo = frame.local_from_world(at_.wo);
+        wo.z = std::max(wo.z, kMinFacing);
+        return {out_.add_frame(frame), normalize(wo)};
+    }
+    [[nodiscard]] Oriented specular_frame() {
+        if (!(s_.specular_anisotropy > 0)) return base_;
+        if (!has_specular_frame_) specular_ = oriented(s_.normal, s_.specular_anisotropy, s_.specular_rotation);
+        has_specular_frame_ = true;
+        return specular_;
+    }
+
+    /// Roughness of the specular layers below a coat: lerp(r, 1, coat * coat_affect_roughness * coat_roughness).
+    [[nodiscard]] float roughness(float extra) const {
+        const float affect = coat_ * unit(s_.coat_affect_roughness) * unit(s_.coat_roughness);
+        return lerp(unit(s_.specular_roughness + extra), 1.0F, affect);
+    }
+    [[nodiscard]] GgxAlpha specular_alpha(float r) const { return GgxAlpha::from_roughness(r, s_.specular_anisotropy); }
+    /// n(far side) / n(side of wo).
+    [[nodiscard]] float relative_ior() const { return inside_ ? 1 / s_.specular_IOR : s_.specular_IOR; }
+
+    /// Fresnel reflection. Tables of dielectrics end at kMaxEta; mirrors are made with larger indices, and those are
+    /// metals without extinction.
+    [[nodiscard]] static LobeModel reflection(GgxAlpha alpha, float eta) {
+        if (eta > kMaxEta && std::isfinite(eta)) return ConductorReflect(alpha, Color::grey(eta), kBlack);
+        return DielectricReflect(alpha, eta);
+    }
+    /// 1 - weight * R, R the lobe's directional albedo.
+    [[nodiscard]] static Color complement(Color weight, const LobeModel& model, const Oriented& frame) {
+        const Color r = std::visit([&](const auto& lobe) { return lobe.albedo(frame.wo); }, model);
+        return unit(kWhite - weight * r);
+    }
+    /// Colours below the coat: raised to 1 + coat * coat_affect_color.
+    [[nodiscard]] Color darkened(Color c) const {
+        c = positive(c);
+        const float exponent = 1 + coat_ * positive(s_.coat_affect_color);
+        if (exponent == 1) return c;
+        return {std::pow(c.r, exponent), std::pow(c.g, exponent), std::pow(c.b, exponent)};
+    }
+
+    const StandardSurface& s_;
+    const ShadePoint& at_;
+    ClosureSet& out_;
+    Color left_;  ///< share of the light that the layers above let through
+    float coat_, transmission_;
+    bool inside_;  ///< of a transparent body
+    Oriented base_, specular_{};
+    bool has_specular_frame_ = false;
+};
+
+void StandardSurface::eval(const ShadePoint& at, ClosureSet& out) const {
+    const Color visible = unit(opacity);
+    out.transparent(kWhite - visible);
+    if (is_black(visible)) return;
+    Layering layers(*this, at, out, visible);
+    layers.add_coat();
+    layers.add_emission();
+    layers.add_metal();
+    layers.add_specular();
+    layers.add_transmission();
+    layers.add_sheen();
+    layers.add_base();
+}
+
+void StandardSurface::prepare(NodeContext& context) {
+    if (!context.is_linked("normal")) normal = {};
+    if (!context.is_linked("coat_normal")) coat_normal = {};
+    if (!context.is_linked("tangent")) tangent = {};
+    if ((subsurface > 0 || context.is_linked("subsurface")) && !thin_walled)
+        context.diagnostics().warning(Code::ParamPending,
+                                      "subsurface scattering is not supported yet: its part of the surface is shown as diffuse "
+                                      "reflection of subsurface_color",
+                                      context.where("subsurface"), "its light stays in the AOVs of subsurface scattering (event TD)");
+}
+
+// Parameters --------------------------------------------------------------------------------------------------------
+
+using S = StandardSurface;
+
+void describe_base(Describe<S>& d) {
+    d.param("base", &S::base, "Weight of the diffuse base and of the metal's colour.").range(0, 1);
+    d.param("base_color", &S::base_color, "Reflectance of the diffuse base, or of the metal seen face on.").range(0, 1);
+    d.param("diffuse_roughness", &S::diffuse_roughness, "0: Lambert; up to 1: rougher, like clay.").range(0, 1);
+    d.param("metalness", &S::metalness, "Mix from a dielectric (0) to a metal (1).").range(0, 1);
+    d.param("specular", &S::specular, "Weight of the specular reflection.").range(0, 1);
+    d.param("specular_color", &S::specular_color, "Tint of the specular reflection; of metals at the edge.").range(0, 1);
+    d.param("specular_roughness", &S::specular_roughness, "0: a mirror. The width of the microfacets is its square.").range(0, 1);
+    d.param("specular_IOR", &S::specular_IOR, "Index of refraction.").range(1, 3);
+    d.param("specular_anisotropy", &S::specular_anisotropy, "Stretches highlights across the tangent.").range(0, 1);
+    d.param("specular_rotation", &S::specular_rotation, "Turns the direction of anisotropy.").unit("turns").range(0, 1);
+}
+
+void describe_transmission(Describe<S>& d) {
+    d.param("transmission", &S::transmission, "Mix from the diffuse base (0) to a clear body (1).").range(0, 1);
+    d.param("transmission_color", &S::transmission_color, "Tint at each crossing of the surface.").range(0, 1);
+    d.param("transmission_depth", &S::transmission_depth, "Depth at which the interior has transmission_color.").unit("scene units").pending();
+    d.param("transmission_scatter", &S::transmission_scatter, "Scattering coefficient of the interior.").unit("1/scene units").pending();
+    d.param("transmission_scatter_anisotropy", &S::transmission_scatter_anisotropy, "Mean cosine of that scattering; acts with transmission_scatter.").ignored();
+    d.param("transmission_dispersion", &S::transmission_dispersion, "Abbe number; 0: no dispersion.").pending();
+    d.param("transmission_extra_roughness", &S::transmission_extra_roughness, "Added to specular_roughness for transmission.").range(-1, 1);
+    d.param("transmission_shadow_density", &S::transmission_shadow_density, "Arnold's darkness of shadows of clear bodies.").ignored();
+    d.param("transmit_aovs", &S::transmit_aovs, "AOVs and alpha pass through as if the surface were a hole.").pending();
+    d.param("dielectric_priority", &S::dielectric_priority, "Which of overlapping bodies wins.").pending();
+}
+
+void describe_subsurface_and_sheen(Describe<S>& d) {
+    d.param("subsurface", &S::subsurface, "Mix from diffuse reflection to subsurface scattering; thin_walled: to diffuse transmission.").range(0, 1);
+    d.param("subsurface_color", &S::subsurface_color, "Reflectance of subsurface scattering.").range(0, 1);
+    d.param("subsurface_radius", &S::subsurface_radius, "Mean free path a channel; acts with random walks, which are not supported yet.").ignored();
+    d.param("subsurface_scale", &S::subsurface_scale, "Factor on subsurface_radius.").ignored();
+    d.param("subsurface_anisotropy", &S::subsurface_anisotropy, "Mean cosine of the scattering; acts with random walks.").ignored();
+    d.param("subsurface_type", &S::subsurface_type, "Method; acts with random walks.").names({"diffusion", "randomwalk", "randomwalk_v2"}).ignored();
+    d.param("sheen", &S::sheen, "Weight of the glow of cloth.").range(0, 1);
+    d.param("sheen_color", &S::sheen_color, "Tint of the sheen.").range(0, 1);
+    d.param("sheen_roughness", &S::sheen_roughness, "How far the sheen spreads from the edge.").range(0, 1);
+    d.param("thin_walled", &S::thin_walled, "The surface is a sheet without an interior: transmission does not bend.");
+}
+
+void describe_coat(Describe<S>& d) {
+    d.param("coat", &S::coat, "Weight of a clear layer on top.").range(0, 1);
+    d.param("coat_color", &S::coat_color, "Tint of what is seen through the coat.").range(0, 1);
+    d.param("coat_roughness", &S::coat_roughness, "Roughness of the coat.").range(0, 1);
+    d.param("coat_IOR", &S::coat_IOR, "Index of refraction of the coat.").range(1, 3);
+    d.param("coat_anisotropy", &S::coat_anisotropy, "Stretches highlights of the coat.").range(0, 1);
+    d.param("coat_rotation", &S::coat_rotation, "Turns the direction of the coat's anisotropy.").unit("turns").range(0, 1);
+    d.param("coat_normal", &S::coat_normal, "Normal of the coat, world space; acts when linked.");
+    d.param("coat_affect_color", &S::coat_affect_color, "How much the coat saturates the diffuse colours below.").range(0, 1);
+    d.param("coat_affect_roughness", &S::coat_affect_roughness, "How much the coat's roughness blurs the specular layers below.").range(0, 1);
+    d.param("thin_film_thickness", &S::thin_film_thickness, "Thickness of an iridescent film; 0: none.").unit("nm").pending();
+    d.param("thin_film_IOR", &S::thin_film_IOR, "Index of refraction of the film; acts with thin_film_thickness.").ignored();
+}
+
+void describe_rest(Describe<S>& d) {
+    d.param("emission", &S::emission, "Weight of the emission.").range(0, kInfinity);
+    d.param("emission_color", &S::emission_color, "Radiance emitted, seen through the coat.");
+    d.param("opacity", &S::opacity, "Below 1, rays pass straight through for the rest.").range(0, 1);
+    d.param("normal", &S::normal, "Shading normal, world space; acts when linked.");
+    d.param("tangent", &S::tangent, "Direction of anisotropy, world space; acts when linked.");
+    d.param("caustics", &S::caustics, "Specular lobes are also seen by diffuse rays.");
+    d.param("internal_reflections", &S::internal_reflections, "Rays inside of a clear body are reflected.");
+    d.param("exit_to_background", &S::exit_to_background, "Rays past their depth limit see the background instead of black.");
+    d.param("indirect_diffuse", &S::indirect_diffuse, "Factor on indirect light of diffuse lobes.").pending();
+    d.param("indirect_specular", &S::indirect_specular, "Factor on indirect light of specular lobes.").pending();
+    d.param("aov_id1", &S::aov_id1, "AOV into which id1 is written.").pending();
+    d.param("id1", &S::id1, "Colour for aov_id1.").ignored();
+    d.param("aov_id2", &S::aov_id2, "AOV into which id2 is written.").pending();
+    d.param("id2", &S::id2, "Colour for aov_id2.").ignored();
+    d.param("aov_id3", &S::aov_id3, "AOV into which id3 is written.").pending();
+    d.param("id3", &S::id3, "Colour for aov_id3.").ignored();
+    d.param("aov_id4", &S::aov_id4, "AOV into which id4 is written.").pending();
+    d.param("id4", &S::id4, "Colour for aov_id4.").ignored();
+    d.param("aov_id5", &S::aov_id5, "AOV into which id5 is written.").pending();
+    d.param("id5", &S::id5, "Colour for aov_id5.").ignored();
+    d.param("aov_id6", &S::aov_id6, "AOV into which id6 is written.").pending();
+    d.param("id6", &S::id6, "Colour for aov_id6.").ignored();
+    d.param("aov_id7", &S::aov_id7, "AOV into which id7 is written.").pending();
+    d.param("id7", &S::id7, "Colour for aov_id7.").ignored();
+    d.param("aov_id8", &S::aov_id8, "AOV into which id8 is written.").pending();
+    d.param("id8", &S::id8, "Colour for aov_id8.").ignored();
+}
+
+NodeType StandardSurface::describe() {
+    Describe<S> d("standard_surface", NodeKind::Shader, "A layered surface: coat, metal, specular, transmission, sheen, diffuse.");
+    describe_base(d);
+    describe_transmission(d);
+    describe_subsurface_and_sheen(d);
+    describe_coat(d);
+    describe_rest(d);
+    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "", "Diffuse reflection of the base.");
+    d.lobe(kSheen, EventKind::Reflection, EventLobe::Specular, "sheen", "Sheen.");
+    d.lobe(kSpecular, EventKind::Reflection, EventLobe::Specular, "", "Specular reflection, also inside of clear bodies.");
+    d.lobe(kMetal, EventKind::Reflection, EventLobe::Specular, "", "Reflection of metal.");
+    d.lobe(kCoat, EventKind::Reflection, EventLobe::Specular, "coat", "Reflection of the coat.");
+    d.lobe(kTransmission, EventKind::Transmission, EventLobe::Specular, "", "Refraction, or straight transmission of thin walls.");
+    d.lobe(kSubsurface, EventKind::Transmission, EventLobe::Diffuse, "", "Subsurface scattering, or diffuse transmission of thin walls.");
+    d.lobe(kEmission, EventKind::Object, EventLobe::None, "", "Emission.");
+    return d.done();
+}
+
+}  // namespace
+
+NodeType node_standard_surface() { return StandardSurface::describe(); }
+
+}  // namespace lightsieve
