@@ -1,0 +1,90 @@
+"""How a render tells how far it is: a bar on a terminal, a line every few seconds in a log."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Protocol
+
+from lightsieve.cli import _output
+
+if TYPE_CHECKING:
+    from lightsieve._core import RenderProgress
+
+LOG_INTERVAL_S = 5.0
+
+
+class Reporter(Protocol):
+    """Is told about ten times a second how far the render is."""
+
+    def __call__(self, now: RenderProgress) -> None:
+        """Shows it, or does not."""
+
+
+def _clock(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
+
+
+def _rate_and_rest(now: RenderProgress) -> tuple[float, str]:
+    """Samples a second, and the time left as text."""
+    rate = now.samples_done / now.seconds if now.seconds > 0 else 0.0
+    return rate, _clock((now.samples_total - now.samples_done) / rate) if rate > 0 else "?"
+
+
+class _Log:
+    def __init__(self) -> None:
+        self._next = time.monotonic() + LOG_INTERVAL_S
+
+    def __call__(self, now: RenderProgress) -> None:
+        if time.monotonic() < self._next or now.samples_total == 0:
+            return
+        self._next = time.monotonic() + LOG_INTERVAL_S
+        rate, left = _rate_and_rest(now)
+        percent = 100 * now.samples_done // now.samples_total
+        _output.say(
+            f"{percent}%: {now.samples_done:,} of {now.samples_total:,} samples, "
+            f"{rate:,.0f} samples/s, {left} left"
+        )
+
+
+@contextmanager
+def _bar() -> Iterator[Reporter]:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    columns = (
+        BarColumn(),
+        TextColumn("{task.percentage:>3.0f}%"),
+        TextColumn("{task.description}"),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("", total=None)
+
+        def show(now: RenderProgress) -> None:
+            rate, left = _rate_and_rest(now)
+            text = f"{now.samples_done:,} samples, {rate:,.0f}/s, {left} left"
+            progress.update(
+                task, total=now.samples_total or None, completed=now.samples_done, description=text
+            )
+
+        yield show
+
+
+@contextmanager
+def reporter(quiet: bool) -> Iterator[Reporter | None]:
+    """What to hand to a render as its `progress`.
+
+    Args:
+        quiet: Show nothing.
+    """
+    if quiet:
+        yield None
+    elif sys.stderr.isatty():
+        with _bar() as show:
+            yield show
+    else:
+        yield _Log()

@@ -1,0 +1,75 @@
+"""Options that the commands which read a scene share."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, Annotated, Literal, Unpack
+
+import typer
+
+if TYPE_CHECKING:
+    from lightsieve import rendering
+    from lightsieve._core import CompiledScene
+
+EXIT_INTERRUPTED = 130
+
+Strict = Annotated[bool, typer.Option("--strict", help="Unknown nodes and parameters are errors.")]
+LpeStandard = Annotated[
+    bool,
+    typer.Option("--lpe-standard", help="Our extensions of the expression language are errors."),
+]
+LpeTable = Annotated[
+    Literal["reference", "arnold7"] | None,
+    typer.Option(
+        "--lpe-table", help="Which reading of the built-in AOVs; as the scene says if not given."
+    ),
+]
+Assignments = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="NODE.PARAM=VALUE", help="Change a parameter; may be repeated."),
+]
+
+
+def _leave(_signal: int, _frame: FrameType | None) -> None:
+    # Compiling cannot be ended half way: leave at once, nothing has been written.
+    print(
+        "stopped by Ctrl-C before the first ray; nothing was written", file=sys.stderr, flush=True
+    )
+    os._exit(EXIT_INTERRUPTED)
+
+
+def compile_scene(
+    scene: Path,
+    *,
+    write_files: bool,
+    assignments: list[str] | None,
+    **settings: Unpack[rendering.Settings],
+) -> CompiledScene:
+    """Reads and compiles a scene; Ctrl-C ends the process.
+
+    Args:
+        scene: The file.
+        write_files: Let a render write the scene's files.
+        assignments: `NODE.PARAM=VALUE` each.
+        **settings: As `lightsieve.render` takes them.
+
+    Returns:
+        The scene with its diagnostics.
+    """
+    from lightsieve import rendering
+
+    before = signal.signal(signal.SIGINT, _leave)
+    try:
+        return rendering.compile_scene(
+            scene,
+            capture=False,
+            write_files=write_files,
+            assignments=assignments or (),
+            **settings,
+        )
+    finally:
+        signal.signal(signal.SIGINT, before)

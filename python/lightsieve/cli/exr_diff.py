@@ -1,0 +1,95 @@
+"""`lightsieve exr diff`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lightsieve.cli import _output
+
+EXAMPLE = "lightsieve exr diff new.exr reference.exr -o difference.exr --max-rmse 0.01"
+
+
+def command(
+    a: Annotated[Path, typer.Argument(metavar="A", help="A file.")],
+    b: Annotated[Path, typer.Argument(metavar="B", help="The reference.")],
+    picture: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="PICTURE",
+            help="Write the absolute difference to this .exr, .png or .tif.",
+        ),
+    ] = None,
+    layer: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="The layer of a .png or .tif; the first if not given.",
+            show_default=False,
+        ),
+    ] = "",
+    max_rmse: Annotated[
+        float | None,
+        typer.Option(
+            min=0,
+            metavar="X",
+            help="Exit 1 if a layer's RMSE is above X, or a layer is missing.",
+            show_default=False,
+        ),
+    ] = None,
+    json: _output.Json = False,
+) -> None:
+    """Compare two files layer by layer: RMSE, relative MSE, largest difference."""
+    from lightsieve import exr
+
+    result = exr.diff(a, b, picture, layer)
+    worst = max((row.rmse for row in result.layers), default=0.0)
+    missing = [*result.only_a, *result.only_b]
+    failed = max_rmse is not None and (worst > max_rmse or bool(missing) or not result.layers)
+    if json:
+        _output.print_json(
+            {
+                "a": str(a),
+                "b": str(b),
+                "passed": not failed,
+                "layers": [
+                    {
+                        "name": row.name,
+                        "rmse": row.rmse,
+                        "relative_mse": row.relative_mse,
+                        "max_difference": row.max_difference,
+                        "max_at": {"x": row.max_x, "y": row.max_y},
+                        "values": row.n_values,
+                        "different": row.n_different,
+                        "nonfinite": row.n_nonfinite,
+                    }
+                    for row in result.layers
+                ],
+                "only_a": result.only_a,
+                "only_b": result.only_b,
+            }
+        )
+    else:
+        rows = [("layer", "RMSE", "relative MSE", "largest", "at", "different")]
+        rows += [
+            (
+                row.name,
+                f"{row.rmse:.6g}",
+                f"{row.relative_mse:.6g}",
+                f"{row.max_difference:.6g}",
+                f"{row.max_x},{row.max_y}",
+                f"{row.n_different:,} of {row.n_values:,}"
+                + (f", {row.n_nonfinite:,} not finite" if row.n_nonfinite else ""),
+            )
+            for row in result.layers
+        ]
+        _output.print_table(rows, ["bold"])
+        for name, names in ((a, result.only_a), (b, result.only_b)):
+            if names:
+                typer.echo(f"only in {name}: {', '.join(names)}")
+    if failed:
+        raise typer.Exit(1)

@@ -1,0 +1,109 @@
+"""`lightsieve nodes`."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from lightsieve.cli import _output
+from lightsieve.errors import Diagnostic, LightsieveError
+
+if TYPE_CHECKING:
+    from lightsieve.scene import Node, Param
+
+EXAMPLE = "lightsieve nodes standard_surface"
+
+
+def _unknown(name: str, known: list[str]) -> LightsieveError:
+    message = f'there is no node "{name}"'
+    near = get_close_matches(name, known, n=1)
+    hint = f'did you mean "{near[0]}"?' if near else "`lightsieve nodes` lists all of them"
+    rendered = f"error[unknown-node]: {message}\n  hint: {hint}"
+    return LightsieveError(
+        [Diagnostic("error", "unknown-node", message, hint, None, None, None, rendered)]
+    )
+
+
+def format_value(value: Any) -> str:
+    """A default as a scene file writes it."""
+    if value is None or value == []:
+        return ""
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, tuple | list):
+        return " ".join(format_value(part) for part in value)
+    return f'"{value}"' if isinstance(value, str) else str(value)
+
+
+def _notes(param: Param) -> str:
+    parts = [param.doc]
+    if param.enumerators:
+        parts.append(f"One of: {', '.join(param.enumerators)}.")
+    if param.unit:
+        parts.append(f"[{param.unit}]")
+    if param.low is not None and param.high is not None:
+        parts.append(f"{param.low:.6g} to {param.high:.6g}.")
+    if param.status == "ignored":
+        parts.append("(no effect here)")
+    elif param.status == "pending":
+        parts.append("(not supported yet)")
+    return " ".join(parts)
+
+
+def _default(param: Param) -> str:
+    return str(param.default) if param.type == "ENUM" else format_value(param.default)
+
+
+def _print_node(node: Node) -> None:
+    typer.echo(
+        f"{node.name} ({node.kind}{', gives ' + node.output if node.output else ''}): {node.doc}"
+    )
+    if node.params:
+        typer.echo("\nparameters")
+        _output.print_table(
+            (
+                (
+                    f"  {param.name}",
+                    param.type + ("[]" if param.array else ""),
+                    _default(param),
+                    _notes(param),
+                )
+                for param in node.params
+            ),
+            ["bold", "cyan", "green"],
+        )
+    if node.lobes:
+        typer.echo("\nlobes")
+        _output.print_table(((f"  {lobe.event}", lobe.doc) for lobe in node.lobes), ["bold"])
+
+
+def command(
+    name: Annotated[
+        str | None, typer.Argument(metavar="[NAME]", help="Only this node, in full.")
+    ] = None,
+    json: _output.Json = False,
+) -> None:
+    """List the nodes that a scene may use, or one node's parameters, defaults and lobes."""
+    from lightsieve.scene import nodes
+
+    known = nodes()
+    if name is None:
+        if json:
+            _output.print_json(
+                {"nodes": [{"name": n.name, "kind": n.kind, "doc": n.doc} for n in known.values()]}
+            )
+        else:
+            _output.print_table(
+                ((n.name, n.kind, n.doc) for n in known.values()), ["bold", "cyan"]
+            )
+        return
+    if name not in known:
+        raise _unknown(name, list(known))
+    if json:
+        _output.print_json(known[name].to_dict())
+    else:
+        _print_node(known[name])
