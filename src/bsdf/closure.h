@@ -89,9 +89,12 @@ class ClosureSet {
     [[nodiscard]] Vec3f wo() const { return wo_; }
 
   private:
+    [[nodiscard]] const LobeRecord& record(int lobe) const;
+
     std::array<Closure, kMaxClosures> closures_;
     std::array<Emission, kMaxEmissions> emissions_;
     std::array<Frame, kMaxFrames> frames_;
+    std::array<Vec3f, kMaxFrames> wo_local_;
     std::size_t n_ = 0, n_emissions_ = 0, n_frames_ = 0;
     std::uint32_t n_dropped_ = 0;
     std::span<const LobeRecord> records_;

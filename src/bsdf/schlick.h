@@ -1,27 +1,24 @@
 // GGX microfacets with a Fresnel curve given by colours: facing, near 82 degrees and grazing.
 //
-// F(c) = f0 + (f90 - f0) (1 - c)^exponent - a c (1 - c)^6, with `a` such that F at cos = 1/7 is `f82` times the plain
-// Schlick value (f82 = 1: plain Schlick). Opaque: single scattering is compensated as for metals.
-// Sources: Schlick 1994; Kutz, Hasan, Edmondson, "Novel aspects of the Adobe Standard Material", 2021 (f82);
-// MaterialX generalized_schlick_bsdf (parameters).
+// Opaque: single scattering is compensated as for metals (conductor.h). For shaders whose users speak in colours
+// (MaterialX generalized_schlick, OpenPBR metal).
 #pragma once
 
 #include "bsdf/ggx.h"
 #include "bsdf/lobe.h"
+#include "bsdf/schlick_curve.h"
 
 namespace lightsieve {
 
 /// Reflection with a Schlick curve, event <RS>. Delta when smooth.
 struct SchlickReflect {
     GgxAlpha alpha;
-    Color f0{1, 1, 1};   ///< reflectance facing the viewer
-    Color f90{1, 1, 1};  ///< reflectance at grazing angles
-    Color dip{0, 0, 0};  ///< the coefficient a
-    float exponent = 5;
+    SchlickCurve curve;
 
     SchlickReflect() = default;
-    /// Colours are clamped to [0,1], the exponent to [1,20]; not finite becomes 0.
-    SchlickReflect(GgxAlpha roughness, Color facing, Color grazing, float schlick_exponent = 5, Color f82 = kWhite) noexcept;
+    /// facing, grazing  reflectances, clamped to [0,1]; not finite becomes 0
+    /// f82              what multiplies the plain curve at 82 degrees, clamped to [0,1]; white: plain Schlick
+    SchlickReflect(GgxAlpha roughness, Color facing, Color grazing, Color f82 = kWhite) noexcept;
 
     [[nodiscard]] LobeEval eval(Vec3f wo, Vec3f wi) const noexcept;
     [[nodiscard]] LobeSample sample(Vec3f wo, Vec2f u, float u_choice) const noexcept;

@@ -9,6 +9,9 @@
 
 namespace lightsieve {
 
+/// Narrower lobes would reflect more light than they receive.
+inline constexpr float kMinSheenRoughness = 0.07F;
+
 /// Reflection of cloth, event <RS'sheen'>.
 struct SheenReflect {
     float roughness = 0.3F;  ///< a of the paper, (0,1]

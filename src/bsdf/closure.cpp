@@ -1,0 +1,92 @@
+#include "bsdf/closure.h"
+
+#include "core/error.h"
+
+namespace lightsieve {
+namespace {
+
+/// Directions nearer to the horizon are lifted to it: the models divide by wo.z.
+constexpr float kMinCosOut = 1e-5F;
+
+Frame facing(const Frame& frame, Vec3f wo) { return dot(frame.z, wo) < 0 ? Frame{frame.x, -frame.y, -frame.z} : frame; }
+
+/// Negative to 0; not finite anywhere makes all of it black.
+Color valid_weight(Color c) {
+    if (!is_finite(c)) return kBlack;
+    return {std::max(c.r, 0.0F), std::max(c.g, 0.0F), std::max(c.b, 0.0F)};
+}
+
+}  // namespace
+
+void ClosureSet::begin(Vec3f wo, const Frame& shading) {
+    wo_ = wo;
+    n_ = n_emissions_ = n_frames_ = 0;
+    n_dropped_ = 0;
+    scale_ = kWhite;
+    transparency_ = matte_ = kBlack;
+    records_ = {};
+    add_frame(shading);
+}
+
+std::uint8_t ClosureSet::add_frame(const Frame& frame) {
+    // More frames than fit: the shading frame will do for the rest.
+    if (n_frames_ == kMaxFrames) return 0;
+    const Frame faced = facing(frame, wo_);
+    Vec3f local = faced.local_from_world(wo_);
+    local.z = std::max(local.z, kMinCosOut);
+    frames_[n_frames_] = faced;
+    wo_local_[n_frames_] = local;
+    return static_cast<std::uint8_t>(n_frames_++);
+}
+
+const LobeRecord& ClosureSet::record(int lobe) const {
+    LIGHTSIEVE_ASSERT(static_cast<std::size_t>(lobe) < records_.size(), std::to_string(lobe) + " of " + std::to_string(records_.size()));
+    return records_[static_cast<std::size_t>(lobe)];
+}
+
+void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame, bool caustics) {
+    const Color total = valid_weight(scale_ * weight);
+    if (is_black(total)) return;
+    if (n_ == kMaxClosures) {
+        ++n_dropped_;
+        return;
+    }
+    closures_[n_++] = {model, total, &record(lobe), frame, caustics};
+}
+
+void ClosureSet::emit(int lobe, Color radiance) {
+    const Color total = valid_weight(scale_ * radiance);
+    if (is_black(total)) return;
+    if (n_emissions_ == kMaxEmissions) {
+        ++n_dropped_;
+        return;
+    }
+    emissions_[n_emissions_++] = {total, &record(lobe)};
+}
+
+LobeEval ClosureSet::eval(std::size_t i, Vec3f wi) const noexcept {
+    const Closure& c = closures_[i];
+    const Vec3f wi_local = frames_[c.frame].local_from_world(wi);
+    LobeEval e = std::visit([&](const auto& model) { return model.eval(wo_local_[c.frame], wi_local); }, c.model);
+    e.f *= c.weight;
+    return e;
+}
+
+LobeSample ClosureSet::sample(std::size_t i, Vec2f u, float u_choice) const noexcept {
+    const Closure& c = closures_[i];
+    LobeSample s = std::visit([&](const auto& model) { return model.sample(wo_local_[c.frame], u, u_choice); }, c.model);
+    s.wi = frames_[c.frame].world_from_local(s.wi);
+    s.f *= c.weight;
+    return s;
+}
+
+Color ClosureSet::albedo(std::size_t i) const noexcept {
+    const Closure& c = closures_[i];
+    return c.weight * std::visit([&](const auto& model) { return model.albedo(wo_local_[c.frame]); }, c.model);
+}
+
+bool ClosureSet::delta(std::size_t i) const noexcept {
+    return std::visit([](const auto& model) { return model.delta(); }, closures_[i].model);
+}
+
+}  // namespace lightsieve
