@@ -1,0 +1,424 @@
+#include "render/aov_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "lpe/algebra.h"
+#include "lpe/builtins.h"
+#include "lpe/parse.h"
+#include "scene/graph.h"
+
+namespace lightsieve {
+namespace {
+
+struct DataAov {
+    std::string_view name;
+    LayerSource source;
+    std::array<std::string_view, 3> types;  ///< the first is the natural one
+};
+
+/// AOVs that are no light path expressions, with the types that they can be written as.
+constexpr std::array<DataAov, 7> kDataAovs{{
+    {"Z", LayerSource::Depth, {"FLOAT", "", ""}},
+    {"N", LayerSource::Normal, {"VECTOR", "RGB", ""}},
+    {"P", LayerSource::Position, {"VECTOR", "RGB", ""}},
+    {"A", LayerSource::Alpha, {"FLOAT", "", ""}},
+    {"opacity", LayerSource::Opacity, {"RGB", "FLOAT", ""}},
+    {"ID", LayerSource::Id, {"UINT", "INT", ""}},
+    {"uv", LayerSource::Uv, {"VECTOR2", "RGB", "VECTOR"}},
+}};
+
+constexpr std::array<std::string_view, 8> kTypes{"RGB", "RGBA", "FLOAT", "INT", "UINT", "BOOL", "VECTOR", "VECTOR2"};
+
+std::vector<std::string> split_blanks(std::string_view text) {
+    std::vector<std::string> out;
+    constexpr std::string_view kBlank = " \t\r\n";
+    for (std::size_t at = text.find_first_not_of(kBlank); at != std::string_view::npos;) {
+        const std::size_t end = std::min(text.find_first_of(kBlank, at), text.size());
+        out.emplace_back(text.substr(at, end - at));
+        at = text.find_first_not_of(kBlank, end);
+    }
+    return out;
+}
+
+/// The place of one quoted string inside the place of an array, or the array's place if it cannot be found.
+SourceSpan element_place(const SourceSpan& array, std::string_view element, std::size_t& search_from) {
+    const std::string_view all = array.text();
+    const std::string quoted = '"' + std::string(element) + '"';
+    const std::size_t at = all.find(quoted, search_from);
+    if (at == std::string_view::npos) return array;
+    search_from = at + quoted.size();
+    return {array.source, array.offset + at + 1, element.size()};
+}
+
+/// The strings of an options array, each with its place.
+std::vector<std::pair<std::string, SourceSpan>> option_strings(const SceneGraph& graph, Name param) {
+    std::vector<std::pair<std::string, SourceSpan>> out;
+    if (graph.options() == nullptr) return out;
+    const SourceSpan where = graph.options()->where(param);
+    std::size_t from = 0;
+    for (Name text : graph.options()->get<Array<Name>>(param).first_key())
+        out.emplace_back(text.str(), element_place(where, text.view(), from));
+    return out;
+}
+
+std::vector<std::string> names_of_kind(const SceneGraph& graph, NodeKind kind) {
+    std::vector<std::string> out;
+    for (const auto& node : graph.nodes())
+        if (node->kind() == kind && node->is_named()) out.push_back(node->name().str());
+    return out;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string out;
+    for (const std::string& name : names)
+        out += (out.empty() ? "\"" : ", \"") + name + '"';
+    return out;
+}
+
+/// Channels of a layer of an AOV type.
+std::size_t n_channels_of(std::string_view type) {
+    return type == "RGBA" ? 4 : type == "RGB" || type == "VECTOR" ? 3 : type == "VECTOR2" ? 2 : 1;
+}
+
+class Planner {
+  public:
+    Planner(const PlanInput& input, AovPlan& plan, Diagnostics& diagnostics)
+        : input_(input), plan_(plan), diagnostics_(diagnostics), table_(choose_table()) {}
+
+    void run() {
+        plan_.light_groups.assign(input_.light_groups.begin(), input_.light_groups.end());
+        define_expressions();
+        gather_outputs();
+        resolve();
+        compile();
+    }
+
+  private:
+    lpe::BuiltinTable choose_table() {
+        std::string name = input_.options.lpe_table;
+        SourceSpan where;
+        if (const NodeInstance* options = input_.graph.options(); name.empty() && options != nullptr) {
+            const UserData* data = options->find_user_data("lpe_table");
+            if (data != nullptr && data->type == ParamType::String && data->n > 0) {
+                name = data->values<Name>()[0].str();
+                where = data->where;
+            }
+        }
+        if (name.empty() || name == "reference") return lpe::BuiltinTable::Reference;
+        if (name == "arnold7") return lpe::BuiltinTable::Arnold7;
+        diagnostics_.error(Code::OutputBad, "no table of built-in expressions is called \"" + name + '"', where, "\"reference\" and \"arnold7\" are");
+        return lpe::BuiltinTable::Reference;
+    }
+
+    void define_expressions() {
+        for (const auto& [text, where] : option_strings(input_.graph, "light_path_expressions"))
+            table_.define(text, where, diagnostics_);
+        for (const std::string& text : input_.options.lpes)
+            table_.define(text, lpe::stand_alone(text, "<--lpe>"), diagnostics_);
+    }
+
+    void gather_outputs() {
+        for (const auto& [text, where] : option_strings(input_.graph, "outputs"))
+            if (std::optional<OutputString> output = parse_output(text, where, diagnostics_)) outputs_.push_back(std::move(*output));
+        const OutputString first = outputs_.empty() ? OutputString{} : outputs_.front();
+        const bool asks_more = !input_.options.aovs.empty() || !input_.options.lpes.empty();
+        const bool nothing_written = outputs_.empty() && !diagnostics_.has_errors();
+        // A scene that asks for nothing gets its beauty, and so does one that only the command line asks something of.
+        if (nothing_written) outputs_.push_back({"", "RGBA", "RGBA", "", "", "", false, {}});
+        if (!asks_more) return;
+        for (const std::string& text : input_.options.aovs) {
+            const std::vector<std::string> words = split_blanks(text);
+            const SourceSpan where = lpe::stand_alone(text, "<--aov>");
+            if (words.empty() || words.size() > 2) {
+                diagnostics_.error(Code::OutputBad, "\"" + text + "\" is no AOV name and type", where, "for example \"diffuse RGB\" or \"N VECTOR\"");
+                continue;
+            }
+            outputs_.push_back({"", words[0], words.size() > 1 ? words[1] : natural_type(words[0]), first.filter, first.driver, "", false, where});
+        }
+        for (const std::string& text : input_.options.lpes)
+            if (const std::vector<std::string> words = split_blanks(text); !words.empty())
+                outputs_.push_back({"", words[0], "RGB", first.filter, first.driver, "", false, lpe::stand_alone(text, "<--lpe>")});
+    }
+
+    static std::string natural_type(std::string_view aov) {
+        for (const DataAov& data : kDataAovs)
+            if (data.name == aov) return std::string(data.types[0]);
+        return aov == "RGBA" ? "RGBA" : "RGB";
+    }
+
+    /// A node of the kind by name; null with an error if there is none. An empty name is the default, also null.
+    const NodeInstance* node_of_kind(const std::string& name, NodeKind kind, const SourceSpan& where) {
+        if (name.empty()) return nullptr;
+        const NodeInstance* node = input_.graph.find(name);
+        if (node != nullptr && node->kind() == kind) return node;
+        const std::vector<std::string> known = names_of_kind(input_.graph, kind);
+        std::string hint = did_you_mean(name, known);
+        if (hint.empty()) hint = known.empty() ? "the scene has none" : "the scene has " + listed(known);
+        const std::string what(kind_text(kind));
+        const std::string problem = node == nullptr ? "no " + what + " is called \"" + name + '"' : '"' + name + "\" is a " + node->type().name.str() + ", not a " + what;
+        diagnostics_.error(Code::OutputBad, problem, where, hint);
+        return nullptr;
+    }
+
+    void resolve() {
+        std::vector<lpe::OutputName> names;
+        for (const OutputString& output : outputs_)
+            names.push_back({output.aov, output.layer, output.driver, aov_place(output)});
+        const lpe::AovNames known{table_, {input_.light_groups.begin(), input_.light_groups.end()}, data_aov_names()};
+        std::vector<lpe::ResolvedOutput> resolved;
+        for (std::size_t i = 0; i < outputs_.size(); ++i) {
+            resolved.push_back(lpe::resolve_output(names[i], known, diagnostics_));
+            plan_output(outputs_[i], resolved.back());
+        }
+        lpe::check_layer_names(names, resolved, diagnostics_);
+        check_duplicates();
+    }
+
+    /// The AOV's name within the output string.
+    static SourceSpan aov_place(const OutputString& output) {
+        const std::size_t at = output.where.text().find(output.aov);
+        if (!output.where.known() || at == std::string_view::npos) return output.where;
+        return {output.where.source, output.where.offset + at, output.aov.size()};
+    }
+
+    void plan_output(const OutputString& output, const lpe::ResolvedOutput& resolved) {
+        PlannedLayer base;
+        base.info.aov_type = output.type;
+        base.info.half = output.half;
+        base.info.n_channels = n_channels_of(output.type);
+        base.view = view_of(node_of_kind(output.filter, NodeKind::Filter, output.where));
+        base.driver = driver_of(node_of_kind(output.driver, NodeKind::Driver, output.where));
+        base.pass = pass_of(node_of_kind(output.camera, NodeKind::Camera, output.where));
+        if (resolved.kind == lpe::ResolvedOutput::Kind::Lpe) plan_expression(output, resolved, base);
+        if (resolved.kind == lpe::ResolvedOutput::Kind::Other) plan_data(output, base);
+    }
+
+    void plan_expression(const OutputString& output, const lpe::ResolvedOutput& resolved, const PlannedLayer& base) {
+        if (output.type != "RGB" && output.type != "RGBA" && output.type != "FLOAT")
+            return diagnostics_.error(Code::OutputBad, "\"" + output.aov + "\" is light, it cannot be of type " + output.type, output.where, "RGB, RGBA and FLOAT (luminance) are possible");
+        for (const lpe::LpeLayer& layer : resolved.layers) {
+            PlannedLayer planned = base;
+            planned.info.name = layer.layer;
+            planned.info.aov = layer.aov;
+            planned.info.expression = layer.expression;
+            planned.info.light_group = layer.select == lpe::GroupSelect::Named ? layer.group : layer.select == lpe::GroupSelect::Default ? "default" : "";
+            planned.expr = layer.expr;
+            planned.select = layer.select;
+            const lpe::NamedExpr* beauty = table_.find("RGBA");
+            const bool is_builtin_beauty = layer.aov == "RGBA" && layer.select == lpe::GroupSelect::All && beauty->text == lpe::find_builtin("RGBA")->expression;
+            if (is_builtin_beauty) {
+                plan_.wants_beauty = true;
+            } else {
+                planned.source = layer.expr == nullptr ? LayerSource::Black : LayerSource::Expression;
+                planned.aov = request_of(layer);
+            }
+            plan_.layers.push_back(std::move(planned));
+        }
+    }
+
+    void plan_data(const OutputString& output, const PlannedLayer& base) {
+        const auto data = std::find_if(kDataAovs.begin(), kDataAovs.end(), [&](const DataAov& d) { return d.name == output.aov; });
+        if (std::find(data->types.begin(), data->types.end(), output.type) == data->types.end()) {
+            std::string types;
+            for (std::string_view type : data->types)
+                if (!type.empty()) types += (types.empty() ? "" : ", ") + std::string(type);
+            return diagnostics_.error(Code::OutputBad, "\"" + output.aov + "\" cannot be of type " + output.type, output.where, "it can be " + types);
+        }
+        PlannedLayer planned = base;
+        planned.info.name = output.layer.empty() ? output.aov : output.layer;
+        planned.info.aov = output.aov;
+        planned.info.is_color = false;
+        planned.source = data->source;
+        plan_.layers.push_back(std::move(planned));
+    }
+
+    std::uint32_t request_of(const lpe::LpeLayer& layer) {
+        for (std::size_t i = 0; i < plan_.requests.size(); ++i) {
+            const lpe::AovRequest& r = plan_.requests[i];
+            if (r.expr == layer.expr && r.select == layer.select && r.group == layer.group) return static_cast<std::uint32_t>(i);
+        }
+        plan_.requests.push_back(layer.request());
+        return static_cast<std::uint32_t>(plan_.requests.size() - 1);
+    }
+
+    std::uint32_t view_of(const NodeInstance* filter) {
+        for (std::size_t i = 0; i < plan_.views.size(); ++i)
+            if (plan_.views[i].node == filter) return static_cast<std::uint32_t>(i);
+        plan_.views.push_back({filter, nullptr, 1, false});
+        return static_cast<std::uint32_t>(plan_.views.size() - 1);
+    }
+    std::uint32_t driver_of(const NodeInstance* driver) {
+        for (std::size_t i = 0; i < plan_.drivers.size(); ++i)
+            if (plan_.drivers[i].node == driver) return static_cast<std::uint32_t>(i);
+        plan_.drivers.push_back({driver, nullptr, {}});
+        return static_cast<std::uint32_t>(plan_.drivers.size() - 1);
+    }
+    /// Passes start as one a camera; compile.cpp parts them further where filters need it.
+    std::uint32_t pass_of(const NodeInstance* camera) {
+        for (std::size_t i = 0; i < plan_.passes.size(); ++i)
+            if (plan_.passes[i].camera_node == camera) return static_cast<std::uint32_t>(i);
+        plan_.passes.push_back({camera, nullptr, 0, {}});
+        return static_cast<std::uint32_t>(plan_.passes.size() - 1);
+    }
+
+    void check_duplicates() {
+        std::set<std::pair<std::uint32_t, std::string>> seen;
+        for (std::size_t i = 0; i < plan_.layers.size(); ++i) {
+            const PlannedLayer& layer = plan_.layers[i];
+            if (!seen.insert({layer.driver, layer.info.name}).second)
+                diagnostics_.error(Code::OutputBad, "two outputs give one file a layer \"" + layer.info.name + '"', {}, "name one of them: a layer name may follow the driver in the output string");
+            plan_.drivers[layer.driver].layers.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+
+    void compile() {
+        for (const lpe::AovRequest& request : plan_.requests)
+            if (request.expr != nullptr)
+                lpe::for_each_node(*request.expr, [&](const lpe::Node& node) { plan_.wants_probes |= may_take_probe(node); });
+        plan_.program.emplace(lpe::Program::compile(plan_.requests, input_.events, {}, diagnostics_));
+    }
+
+    /// Only a literal A or <A> matches a probe.
+    static bool may_take_probe(const lpe::Node& node) {
+        if (const auto* letter = std::get_if<lpe::Letter>(&node.form)) return letter->letter == 'A';
+        const auto* angle = std::get_if<lpe::Angle>(&node.form);
+        return angle != nullptr && angle->kind.letters.find('A') != std::string::npos;
+    }
+
+    const PlanInput& input_;
+    AovPlan& plan_;
+    Diagnostics& diagnostics_;
+    lpe::ExpressionTable table_;
+    std::vector<OutputString> outputs_;
+};
+
+/// Looks among the layers of one file for sets that add up, and proves them.
+class PartitionFinder {
+  public:
+    PartitionFinder(const AovPlan& plan, std::size_t driver) : plan_(plan) {
+        for (const std::uint32_t index : plan.drivers[driver].layers) {
+            const PlannedLayer& layer = plan.layers[index];
+            if (layer.expr != nullptr && layer.info.n_channels >= 3) layers_.push_back(&layer);
+        }
+    }
+
+    std::vector<std::string> find() {
+        for (const PlannedLayer* whole : layers_) {
+            if (whole->select != lpe::GroupSelect::All) continue;
+            try_groups(*whole);
+            if (whole->info.aov == "RGBA") {
+                for (const lpe::BuiltinTable table : {lpe::BuiltinTable::Reference, lpe::BuiltinTable::Arnold7})
+                    for (const std::vector<std::string_view>& set : lpe::additive_sets(table))
+                        try_set(*whole, set);
+            }
+            const std::string direct = whole->info.aov + "_direct", indirect = whole->info.aov + "_indirect";
+            try_set(*whole, {direct, indirect});
+        }
+        return std::move(found_);
+    }
+
+  private:
+    /// All layers of a sum must be filtered alike and see the same camera.
+    static bool comparable(const PlannedLayer& a, const PlannedLayer& b) { return a.view == b.view && a.pass == b.pass; }
+
+    const PlannedLayer* layer_of(const PlannedLayer& whole, std::string_view aov) const {
+        for (const PlannedLayer* layer : layers_)
+            if (layer->info.aov == aov && layer->select == lpe::GroupSelect::All && comparable(*layer, whole)) return layer;
+        return nullptr;
+    }
+
+    void try_set(const PlannedLayer& whole, const std::vector<std::string_view>& aovs) {
+        std::vector<lpe::Expr> parts;
+        std::string sum;
+        for (const std::string_view aov : aovs) {
+            const PlannedLayer* layer = layer_of(whole, aov);
+            if (layer == nullptr || layer == &whole) return;
+            parts.push_back(layer->expr);
+            sum += (sum.empty() ? "" : " + ") + layer->info.name;
+        }
+        try {
+            if (lpe::check_partition(whole.expr, parts).holds()) remember(whole, sum);
+        } catch (const InputError&) {
+            // Over the budget of a proof: nothing is claimed.
+        }
+    }
+
+    /// The groups of an expression partition its light by construction, if all of them and the default one are there.
+    void try_groups(const PlannedLayer& whole) {
+        std::string sum;
+        bool has_default = false;
+        std::set<std::string> split;
+        for (const PlannedLayer* layer : layers_) {
+            if (layer->expr != whole.expr || layer->select == lpe::GroupSelect::All || !comparable(*layer, whole)) continue;
+            if (layer->select == lpe::GroupSelect::Named) split.insert(layer->info.light_group);
+            has_default |= layer->select == lpe::GroupSelect::Default;
+            sum += (sum.empty() ? "" : " + ") + layer->info.name;
+        }
+        const bool all = std::all_of(plan_.light_groups.begin(), plan_.light_groups.end(), [&](const std::string& g) { return split.count(g) != 0; });
+        if (has_default && all && !lpe::takes_probe(whole.expr)) remember(whole, sum);
+    }
+
+    void remember(const PlannedLayer& whole, const std::string& sum) {
+        const std::string text = whole.info.name + " = " + sum;
+        if (std::find(found_.begin(), found_.end(), text) == found_.end()) found_.push_back(text);
+    }
+
+    const AovPlan& plan_;
+    std::vector<const PlannedLayer*> layers_;
+    std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> data_aov_names() {
+    std::vector<std::string> out;
+    for (const DataAov& data : kDataAovs)
+        out.emplace_back(data.name);
+    return out;
+}
+
+std::optional<OutputString> parse_output(std::string_view text, const SourceSpan& where, Diagnostics& diagnostics) {
+    constexpr const char* kForm = "an output is \"[camera] aov TYPE filter driver [layer] [HALF]\"";
+    std::vector<std::string> words = split_blanks(text);
+    const auto is_type = [](const std::string& word) { return std::find(kTypes.begin(), kTypes.end(), word) != kTypes.end(); };
+    OutputString out;
+    out.where = where;
+    if (words.size() > 4 && words.back() == "HALF") {
+        out.half = true;
+        words.pop_back();
+    }
+    for (std::size_t i : {1U, 2U})
+        if (i < words.size() && (words[i] == "NODE" || words[i] == "POINTER")) {
+            diagnostics.error(Code::OutputBad, "AOVs of type " + words[i] + " cannot be written to pictures", where, "RGB RGBA FLOAT INT UINT BOOL VECTOR VECTOR2 can");
+            return std::nullopt;
+        }
+    const bool with_camera = words.size() > 2 && is_type(words[2]) && !(is_type(words[1]) && words.size() < 5);
+    const std::size_t type_at = with_camera ? 2 : 1;
+    if (words.size() <= type_at || !is_type(words[type_at])) {
+        const std::vector<std::string> types(kTypes.begin(), kTypes.end());
+        std::string hint = words.size() > 1 ? did_you_mean(words[1], types) : std::string();
+        diagnostics.error(Code::OutputBad, "output \"" + std::string(text) + "\" names no type", where, hint.empty() ? kForm : hint);
+        return std::nullopt;
+    }
+    if (words.size() < type_at + 3 || words.size() > type_at + 4) {
+        diagnostics.error(Code::OutputBad, "output \"" + std::string(text) + "\" has " + (words.size() < type_at + 3 ? "too few" : "too many") + " words", where, kForm);
+        return std::nullopt;
+    }
+    if (with_camera) out.camera = words[0];
+    out.aov = words[type_at - 1];
+    out.type = words[type_at];
+    out.filter = words[type_at + 1];
+    out.driver = words[type_at + 2];
+    if (words.size() > type_at + 3) out.layer = words[type_at + 3];
+    return out;
+}
+
+std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver) {
+    return PartitionFinder(plan, driver).find();
+}
+
+void plan_layers(const PlanInput& input, AovPlan& plan, Diagnostics& diagnostics) { Planner(input, plan, diagnostics).run(); }
+
+}  // namespace lightsieve

@@ -1,0 +1,112 @@
+// What is wanted: outputs, their expressions and types, which driver, camera and filter they go through.
+//
+// Joins two layers that do not know each other: the scene's option strings and the engine's names and expressions.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lpe/light_groups.h"
+#include "lpe/program.h"
+#include "render/render.h"
+#include "scene/camera.h"
+#include "scene/driver.h"
+#include "scene/pixel_filter.h"
+
+namespace lightsieve {
+
+class NodeInstance;
+class SceneGraph;
+
+/// Where a layer's values come from.
+enum class LayerSource : std::uint8_t {
+    Beauty,      ///< the accumulator of the beauty; with A if the type is RGBA
+    Expression,  ///< a light path expression
+    Depth,       ///< Z: distance along the viewing axis; 0 where nothing was hit
+    Normal,      ///< N: shading normal, world space
+    Position,    ///< P: world space
+    Alpha,       ///< A
+    Opacity,     ///< opacity of the first hit
+    Id,          ///< ID: the shape's id or a hash of its name
+    Uv,          ///< uv
+    Black,       ///< an expression with an error, under abort_on_error off
+};
+
+/// Names of the AOVs that are no light path expressions.
+[[nodiscard]] std::vector<std::string> data_aov_names();
+
+/// One layer of one file.
+struct PlannedLayer {
+    ImageLayer info;
+    LayerSource source = LayerSource::Beauty;
+    std::uint32_t aov = 0;      ///< for Expression: index of the request
+    std::uint32_t view = 0;     ///< filter view
+    std::uint32_t pass = 0;
+    std::uint32_t driver = 0;
+    lpe::Expr expr;             ///< for Expression and Beauty: to prove partitions
+    lpe::GroupSelect select = lpe::GroupSelect::All;
+};
+
+/// A pixel filter that layers use.
+struct FilterView {
+    const NodeInstance* node = nullptr;   ///< null: the default gaussian
+    std::unique_ptr<PixelFilter> filter;
+    float integral = 1;                   ///< of eval over its support, to compare densities
+    bool is_signed = false;               ///< has negative lobes
+};
+
+/// Layers that are rendered with the same camera rays.
+struct Pass {
+    const NodeInstance* camera_node = nullptr;
+    std::unique_ptr<Camera> camera;
+    std::uint32_t sampling_view = 0;      ///< its filter places the samples
+    std::vector<std::uint32_t> views;     ///< all filters of its layers; the sampling one first
+};
+
+struct PlannedDriver {
+    const NodeInstance* node = nullptr;   ///< null: made for a scene without outputs
+    std::unique_ptr<Driver> driver;
+    std::vector<std::uint32_t> layers;    ///< indices into AovPlan::layers, in file order
+};
+
+struct AovPlan {
+    std::vector<PlannedLayer> layers;
+    std::vector<lpe::AovRequest> requests;
+    std::vector<FilterView> views;
+    std::vector<Pass> passes;
+    std::vector<PlannedDriver> drivers;
+    std::optional<lpe::Program> program;
+    bool wants_probes = false;            ///< some expression can take an albedo probe
+    bool wants_beauty = false;
+    std::vector<std::string> light_groups;  ///< named groups of the scene's lights
+};
+
+/// An output string cut into its parts.
+struct OutputString {
+    std::string camera, aov, type, filter, driver, layer;
+    bool half = false;
+    SourceSpan where;
+};
+
+/// Reads `[camera] aov TYPE filter driver [layer] [HALF]`; nothing with an error reported if it is none.
+[[nodiscard]] std::optional<OutputString> parse_output(std::string_view text, const SourceSpan& where, Diagnostics& diagnostics);
+
+/// What the plan needs to know of the rest of the scene.
+struct PlanInput {
+    const SceneGraph& graph;
+    const RenderOptions& options;
+    std::span<const std::string> light_groups;  ///< named groups of the scene's lights
+    std::span<const Event> events;              ///< every event the scene can produce
+};
+
+/// Layers, requests and the compiled program. Cameras, filters and drivers are made by the caller (compile.cpp).
+void plan_layers(const PlanInput& input, AovPlan& plan, Diagnostics& diagnostics);
+
+/// `RGBA = direct + indirect + ...` for every partition among the layers of driver `driver` that the engine proves.
+[[nodiscard]] std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver);
+
+}  // namespace lightsieve

@@ -1,0 +1,41 @@
+// Where in the picture, on the lens and in time a camera sample lies, and what filters make of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/sobol.h"
+#include "render/scene.h"
+
+namespace lightsieve {
+
+/// Everything about one camera sample but its light.
+struct CameraSample {
+    Sampler sampler;
+    CameraRay ray;
+    float time = 0;
+    Mat4f camera_from_world;
+    Vec2f offset;                 ///< from the pixel's centre [pixels]
+};
+
+/// Makes the camera samples of one pass.
+///
+/// The pass's first filter places the samples (a sample belongs to one pixel: no pixel sees its neighbours' samples);
+/// the other filters weigh them by their value over the density.
+class CameraSampler {
+  public:
+    CameraSampler(const Scene& scene, const Pass& pass) : scene_(scene), pass_(pass) {}
+
+    [[nodiscard]] CameraSample sample(int x, int y, std::uint32_t index) const;
+    /// One weight for each of the pass's views.
+    void weights(const CameraSample& sample, std::vector<float>& out) const;
+
+  private:
+    const Scene& scene_;
+    const Pass& pass_;
+};
+
+/// AA_sample_clamp: one factor for everything a sample brings.
+[[nodiscard]] float sample_clamp_factor(const Scene& scene, Color beauty);
+
+}  // namespace lightsieve

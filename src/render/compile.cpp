@@ -1,0 +1,201 @@
+// The order of compilation, settings and cameras. See compiler.h.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "render/compiler.h"
+
+namespace lightsieve {
+namespace {
+
+/// Largest frame side and number of pixels: 4 times 16K, so that a slip of the keyboard does not eat the memory.
+constexpr int kMaxSide = 1 << 16;
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
+constexpr int kMaxSamples = 1 << 24;
+
+std::uint8_t depth_limit(std::int32_t n) { return static_cast<std::uint8_t>(std::clamp(n, 0, 250)); }
+
+}  // namespace
+
+void SceneDelete::operator()(Scene* scene) const { delete scene; }
+
+SceneSummary summarize(const Scene& scene) { return scene.summary; }
+
+ScenePtr compile_scene(const SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics) { return Compiler(graph, options, diagnostics).run(); }
+
+Compiler::Compiler(const SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics)
+    : graph_(graph), options_(options), diagnostics_(diagnostics), scene_(new Scene) {}
+
+ScenePtr Compiler::run() {
+    read_settings();
+    make_lights();
+    make_shapes();
+    make_background();
+    gather_events();
+    // Mistakes in expressions are forgiven if the scene says so: their AOVs are black (spec: abort_on_error).
+    const std::size_t before = diagnostics_.n_errors();
+    plan_layers({graph_, options_, scene_->summary.light_groups, scene_->events}, scene_->plan, diagnostics_);
+    const std::size_t forgiven = abort_on_error_ ? 0 : diagnostics_.n_errors() - before;
+    make_cameras();
+    make_views();
+    part_passes();
+    make_drivers();
+    check_files();
+    if (before > 0 || diagnostics_.n_errors() > before + forgiven) return nullptr;
+    fill_records();
+    find_mask_types();
+    finish_depth_rules();
+    make_accels();
+    summarize_scene();
+    return std::move(scene_);
+}
+
+template <class T>
+T Compiler::option(Name param, T fallback) const {
+    return graph_.options() == nullptr ? fallback : graph_.options()->get<T>(param);
+}
+
+SourceSpan Compiler::option_place(Name param) const { return graph_.options() == nullptr ? SourceSpan{} : graph_.options()->where(param); }
+
+void Compiler::read_settings() {
+    RenderSettings& s = scene_->settings;
+    scene_->textures = std::make_shared<TextureCache>();
+    for (const char* param : {"texture_searchpath", "asset_searchpath"})
+        assets_.add_search_path(option<Name>(param, {}).view());
+    if (!options_.scene_path.empty()) assets_.add_folder(std::filesystem::path(options_.scene_path).parent_path().string());
+    ignore_missing_textures_ = option("ignore_missing_textures", false);
+    abort_on_error_ = option("abort_on_error", true);
+
+    s.width = options_.width > 0 ? options_.width : option<std::int32_t>("xres", 320);
+    s.height = options_.height > 0 ? options_.height : option<std::int32_t>("yres", 240);
+    s.pixel_aspect_ratio = option("pixel_aspect_ratio", 1.0F);
+    s.bucket_size = option<std::int32_t>("bucket_size", 64);
+    if (s.width > kMaxSide || s.height > kMaxSide || std::int64_t{s.width} * s.height > kMaxPixels) {
+        diagnostics_.error(Code::LimitImageSize, "a picture of " + std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels is too large", option_place("xres"),
+                           "at most " + std::to_string(kMaxSide) + " on a side and " + std::to_string(kMaxPixels) + " in all");
+        s.width = s.height = 1;
+    }
+    read_region();
+
+    const int aa = options_.aa_samples != 0 ? options_.aa_samples : option<std::int32_t>("AA_samples", 1);
+    const std::int64_t squared = std::int64_t{std::max(aa, 1)} * std::max(aa, 1);
+    s.samples = options_.spp > 0 ? options_.spp : static_cast<int>(std::min<std::int64_t>(squared, kMaxSamples));
+    s.seed = options_.seed ? *options_.seed : static_cast<std::uint32_t>(option<std::int32_t>("AA_seed", 1));
+    s.threads = options_.threads;
+    s.depth = {depth_limit(option<std::int32_t>("GI_diffuse_depth", 0)), depth_limit(option<std::int32_t>("GI_specular_depth", 0)),
+               depth_limit(option<std::int32_t>("GI_transmission_depth", 2)), depth_limit(option<std::int32_t>("GI_volume_depth", 0)),
+               depth_limit(option<std::int32_t>("GI_total_depth", 10))};
+    s.auto_transparency_depth = option<std::int32_t>("auto_transparency_depth", 10);
+    s.sample_clamp = option("AA_sample_clamp", kInfinity);
+    s.indirect_clamp = option("indirect_sample_clamp", 10.0F);
+    s.roulette_depth = options_.roulette_depth;
+    scene_->capture = options_.capture;
+    scene_->write_files = options_.write_files;
+    scene_->background_visibility = option<std::uint8_t>("background_visibility", 255);
+}
+
+void Compiler::read_region() {
+    RenderSettings& s = scene_->settings;
+    constexpr std::int32_t kUnset = std::numeric_limits<std::int32_t>::min();
+    s.region = {0, 0, s.width - 1, s.height - 1};
+    // A frame size from the command line makes the scene's region meaningless.
+    const bool resized = options_.width > 0 || options_.height > 0;
+    if (!resized) {
+        const auto read = [&](const char* param, int& bound) {
+            const auto value = option<std::int32_t>(param, kUnset);
+            if (value != kUnset) bound = value;
+        };
+        read("region_min_x", s.region.x0);
+        read("region_min_y", s.region.y0);
+        read("region_max_x", s.region.x1);
+        read("region_max_y", s.region.y1);
+    }
+    if (options_.region) s.region = *options_.region;
+    const Region& r = s.region;
+    const bool sane = r.x0 <= r.x1 && r.y0 <= r.y1 && r.x0 >= -kMaxSide && r.y0 >= -kMaxSide && r.x1 <= kMaxSide && r.y1 <= kMaxSide;
+    if (sane) return;
+    diagnostics_.error(Code::LimitImageSize, "the region " + std::to_string(r.x0) + "," + std::to_string(r.y0) + " to " + std::to_string(r.x1) + "," + std::to_string(r.y1) + " holds no pixels", option_place("region_min_x"),
+                       "a region is its first and last column and row, from the upper left corner");
+    s.region = {0, 0, 0, 0};
+}
+
+const NodeInstance* Compiler::default_camera() {
+    if (!options_.camera.empty()) {
+        const NodeInstance* node = graph_.find(options_.camera);
+        if (node != nullptr && node->kind() == NodeKind::Camera) return node;
+        std::vector<std::string> known;
+        for (const auto& n : graph_.nodes())
+            if (n->kind() == NodeKind::Camera) known.push_back(n->name().str());
+        diagnostics_.error(Code::CameraMissing, "no camera is called \"" + options_.camera + '"', {}, did_you_mean(options_.camera, known));
+        return nullptr;
+    }
+    if (const NodeRef camera = option<NodeRef>("camera", {}); camera.node != nullptr) {
+        if (camera.node->kind() == NodeKind::Camera) return camera.node;
+        diagnostics_.error(Code::CameraMissing, "options.camera names a " + camera.node->type().name.str() + ", not a camera", option_place("camera"));
+        return nullptr;
+    }
+    for (const auto& node : graph_.nodes())
+        if (node->kind() == NodeKind::Camera) return node.get();
+    diagnostics_.error(Code::CameraMissing, "the scene has no camera", option_place("camera"), "add a persp_camera and name it in options.camera");
+    return nullptr;
+}
+
+void Compiler::make_cameras() {
+    const NodeInstance* main_camera = default_camera();
+    for (Pass& pass : scene_->plan.passes) {
+        if (pass.camera_node == nullptr) pass.camera_node = main_camera;
+        if (pass.camera_node == nullptr) continue;
+        CompileContext context(*this, pass.camera_node, pass.camera_node->name());
+        pass.camera = pass.camera_node->type().make_camera(pass.camera_node->block(), context);
+    }
+}
+
+void Compiler::finish_depth_rules() {
+    // A ray type matters where something tells it from specular reflection, which stands for all that do not.
+    std::array<bool, 8> matters{};
+    const auto set = [&](RayType type, bool value) { matters[static_cast<std::size_t>(type)] |= value; };
+    for (const RayType type : {RayType::DiffuseReflect, RayType::DiffuseTransmit, RayType::Subsurface})
+        set(type, true);  // the caustics switch
+    for (const SceneLight& light : scene_->lights) {
+        const LightCommon& l = light.common;
+        set(RayType::SpecularTransmit, l.transmission != l.specular);
+        set(RayType::Volume, l.volume != l.specular);
+    }
+    const bool background_differs = scene_->background != nullptr && scene_->background_visibility != 255;
+    if (scene_->mask_types != 0 || background_differs) matters.fill(true);
+    scene_->depth_rules = DepthRules(scene_->settings.depth, matters);
+}
+
+void Compiler::summarize_scene() {
+    SceneSummary& s = scene_->summary;
+    std::set<const ShapeGeometry*> seen;
+    for (const SceneObject& object : scene_->objects) {
+        ++s.n_instances;
+        if (!seen.insert(object.geometry).second) continue;
+        ++s.n_shapes;
+        if (const auto* mesh = std::get_if<TriangleMesh>(&object.geometry->data)) s.n_triangles += mesh->indices.size() / 3;
+        if (const auto* spheres = std::get_if<SphereList>(&object.geometry->data)) s.n_spheres += spheres->radii.size();
+    }
+    s.n_lights = scene_->lights.size();
+    s.n_shaders = scene_->shaders.size();
+    const AovPlan& plan = scene_->plan;
+    s.n_aovs = plan.layers.size();
+    s.n_atoms = plan.program->n_atoms();
+    for (std::size_t i = 0; i < plan.program->n_automata(); ++i)
+        s.n_states += plan.program->automaton(i).n_inner_states();
+    s.width = scene_->settings.width;
+    s.height = scene_->settings.height;
+    s.samples_per_pixel = scene_->settings.samples;
+    for (std::size_t d = 0; d < plan.drivers.size(); ++d) {
+        s.files.push_back(plan.drivers[d].driver ? plan.drivers[d].driver->path() : "");
+        for (std::uint32_t layer : plan.drivers[d].layers) {
+            s.layers.push_back(plan.layers[layer].info);
+            s.layer_file.push_back(static_cast<int>(d));
+        }
+        for (std::string& proved : proved_partitions(plan, d))
+            if (std::find(s.partitions.begin(), s.partitions.end(), proved) == s.partitions.end()) s.partitions.push_back(std::move(proved));
+    }
+}
+
+}  // namespace lightsieve

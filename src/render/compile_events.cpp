@@ -1,0 +1,73 @@
+// Which events the scene can make, and the engine's numbers for them. See compiler.h.
+#include "render/compiler.h"
+
+namespace lightsieve {
+namespace {
+
+Event event_of(const LobeInfo& lobe) {
+    Event event{lobe.kind, lobe.lobe, {}};
+    if (!lobe.label.empty()) event.labels.push_back(lobe.label);
+    return event;
+}
+
+/// A shader without closures shows its colour unlit: emission.
+const Event kUnlit{EventKind::Object, EventLobe::None, {}};
+
+Event light_event(const SceneLight& light) { return {EventKind::Light, EventLobe::None, {light.group}}; }
+Event background_event(const SceneLight& light) { return {EventKind::Background, EventLobe::None, {light.group}}; }
+
+}  // namespace
+
+std::uint32_t Compiler::event_index(const Event& event) {
+    const auto [at, is_new] = event_index_.try_emplace(event, static_cast<std::uint32_t>(scene_->events.size()));
+    if (is_new) scene_->events.push_back(event);
+    return at->second;
+}
+
+void Compiler::gather_events() {
+    for (const ShaderProgram* shader : surface_shaders_) {
+        for (const LobeInfo& lobe : shader->type().lobes)
+            event_index(event_of(lobe));
+        if (shader->type().eval_closure == nullptr) event_index(kUnlit);
+    }
+    for (const SceneLight& light : scene_->lights) {
+        event_index(light_event(light));
+        if (light.is_skydome) event_index(background_event(light));
+    }
+    event_index({EventKind::Background, EventLobe::None, {}});
+    event_index({EventKind::Albedo, EventLobe::None, {}});
+}
+
+void Compiler::fill_records() {
+    const lpe::Program& program = *scene_->plan.program;
+    const auto fill = [&](LobeRecord& record, const Event& event) {
+        record.event = event_index(event);
+        record.kind = event.kind;
+        record.lobe = event.lobe;
+        if (is_terminal(event.kind)) {
+            record.terminal = program.terminal(event);
+        } else {
+            record.event_class = program.scatter_class(event);
+        }
+    };
+    for (ShaderProgram* shader : surface_shaders_) {
+        shader->records.clear();
+        for (const LobeInfo& lobe : shader->type().lobes)
+            fill(shader->records.emplace_back(), event_of(lobe));
+        if (shader->type().eval_closure == nullptr) fill(shader->records.emplace_back(), kUnlit);
+    }
+    for (SceneLight& light : scene_->lights) {
+        light.as_light = program.terminal(light_event(light));
+        light.light_event = event_index(light_event(light));
+        if (!light.is_skydome) continue;
+        light.as_background = program.terminal(background_event(light));
+        light.background_event = event_index(background_event(light));
+    }
+    fill(scene_->background_record, {EventKind::Background, EventLobe::None, {}});
+    LobeRecord probe;
+    fill(probe, {EventKind::Albedo, EventLobe::None, {}});
+    scene_->probe = probe.terminal;
+    scene_->probe_event = probe.event;
+}
+
+}  // namespace lightsieve

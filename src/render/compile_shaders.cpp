@@ -1,0 +1,120 @@
+// Shader networks to programs. See compiler.h.
+#include "render/compiler.h"
+
+namespace lightsieve {
+namespace {
+
+/// Links followed in one chain of shaders: evaluation recurses that deep.
+constexpr int kMaxShaderDepth = 128;
+
+}  // namespace
+
+const ShaderProgram* Compiler::program_for(const NodeInstance& node, int depth) {
+    if (const auto known = programs_.find(&node); known != programs_.end()) return known->second;
+    if (failed_shaders_.count(&node) != 0) return nullptr;
+    const NodeType& type = node.type();
+    if (type.eval_closure == nullptr && type.eval_value == nullptr) {
+        failed_shaders_.insert(&node);
+        diagnostics_.error(Code::LinkType, "\"" + node.name().str() + "\" is a " + type.name.str() + ", not a shader", node.where());
+        return nullptr;
+    }
+    if (depth > kMaxShaderDepth) {
+        failed_shaders_.insert(&node);
+        diagnostics_.error(Code::LimitShaderDepth, "shaders are linked more than " + std::to_string(kMaxShaderDepth) + " deep", node.where(), "shorten the chain of links");
+        return nullptr;
+    }
+    auto program = std::make_unique<ShaderProgram>(type, static_cast<const std::byte*>(node.block()));
+    ShaderProgram* out = program.get();
+    link_parameters(node, *out, depth);
+    if (type.prepare != nullptr) {
+        CompileContext context(*this, &node, node.name());
+        type.prepare(out->block(), context);
+    }
+    out->may_be_transparent = shader_may_be_transparent(node);
+    scene_->shaders.push_back(std::move(program));
+    programs_[&node] = out;
+    return out;
+}
+
+void Compiler::link_parameters(const NodeInstance& node, ShaderProgram& program, int depth) {
+    for (const Link& link : node.links()) {
+        if (link.element >= 0) {
+            diagnostics_.warning(Code::ParamPending, "a link to one element of an array is not supported yet", link.where, "the element keeps its own value");
+            continue;
+        }
+        const ShaderProgram* source = program_for(*link.source, depth + 1);
+        if (source == nullptr) continue;
+        program.add_patch({link.param->offset, link.param->type, link.component, source, link.source_component});
+    }
+    for (const ParamInfo& param : node.type().params) {
+        if (param.type != ParamType::Closure || param.is_array) continue;
+        auto* ref = reinterpret_cast<ShaderRef*>(program.block() + param.offset);
+        if (ref->node != nullptr) ref->program = program_for(*ref->node, depth + 1);
+    }
+}
+
+/// By the parameter `opacity`, which every shader that lets rays through has.
+bool Compiler::shader_may_be_transparent(const NodeInstance& node) const {
+    const ParamInfo* opacity = node.type().find("opacity");
+    if (opacity == nullptr) return false;
+    if (node.is_linked("opacity")) return true;
+    if (opacity->type == ParamType::Rgb) return !(node.get<Color>("opacity") == kWhite);
+    return opacity->type == ParamType::Float && node.get<float>("opacity") != 1;
+}
+
+/// Shapes without a shader are white clay: a lambert with its defaults.
+const ShaderProgram* Compiler::default_shader() {
+    if (default_shader_ != nullptr) return default_shader_;
+    const NodeType* lambert = graph_.registry().find("lambert");
+    LIGHTSIEVE_ASSERT(lambert != nullptr, "the registry has no lambert");
+    scene_->shaders.push_back(std::make_unique<ShaderProgram>(*lambert, lambert->default_block.data()));
+    default_shader_ = scene_->shaders.back().get();
+    return default_shader_;
+}
+
+void Compiler::make_background() {
+    const auto* ref = graph_.options() == nullptr ? nullptr : graph_.options()->find<NodeRef>("background");
+    if (ref == nullptr || ref->node == nullptr) return;
+    const ShaderProgram* program = program_for(*ref->node);
+    if (program == nullptr) return;
+    if (program->type().eval_value == nullptr) {
+        diagnostics_.warning(Code::ParamPending, "a " + program->type().name.str() + " as background is not supported yet", graph_.options()->where("background"), "the background stays black; link a colour, an image for example");
+        return;
+    }
+    scene_->background = program;
+}
+
+ColorInput CompileContext::color_input(Name param) {
+    if (node_ == nullptr) return {};
+    const ParamInfo* info = node_->type().find(param);
+    if (!node_->is_linked(param) || info == nullptr) return ColorInput(node_->get<Color>(param));
+    for (const Link& link : node_->links()) {
+        if (link.param != info) continue;
+        const ShaderProgram* source = compiler_.program_for(*link.source);
+        if (source == nullptr) return ColorInput(kBlack);
+        if (link.component >= 0 || link.source_component >= 0) {
+            diagnostics().warning(Code::ParamPending, "a link of a single channel is not supported here yet", link.where, "the whole colour of the shader is used");
+        }
+        return {source, [](const void* program, const ShadePoint& at) { return static_cast<const ShaderProgram*>(program)->value(at); }};
+    }
+    return ColorInput(node_->get<Color>(param));
+}
+
+NodeContext::Frame CompileContext::frame() const {
+    const RenderSettings& s = compiler_.settings();
+    return {s.width, s.height, s.pixel_aspect_ratio};
+}
+
+std::unique_ptr<ShapeGeometry> CompileContext::geometry_of(NodeRef shape, Mat4f& world_from_object) {
+    if (!shape) return nullptr;
+    const NodeInstance& node = *shape.node;
+    if (node.type().shape_common == nullptr) {
+        diagnostics().error(Code::LinkType, "\"" + node.name().str() + "\" is a " + node.type().name.str() + ", not a shape", where("mesh"));
+        return nullptr;
+    }
+    const Array<Mat4f>& matrix = node.type().shape_common(node.block())->matrix;
+    if (!matrix.empty()) world_from_object = matrix[0];
+    return compiler_.geometry_of(node);
+}
+
+}  // namespace lightsieve

@@ -1,0 +1,198 @@
+// Shapes and instances to placed geometry. See compiler.h.
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "render/compiler.h"
+
+namespace lightsieve {
+namespace {
+
+/// Instances of instances of ...
+constexpr int kMaxInstanceDepth = 64;
+
+Vec3f blend_points(const Vec3f& a, const Vec3f& b, float t) { return a * (1 - t) + b * t; }
+
+/// FNV-1a: ids of shapes without one are a stable function of their names.
+std::uint32_t hash_name(std::string_view name) {
+    std::uint32_t h = 2166136261U;
+    for (const char c : name)
+        h = (h ^ static_cast<unsigned char>(c)) * 16777619U;
+    return h;
+}
+
+Shutter shutter_of(const RenderSettings& s) { return {s.shutter_start, s.shutter_end}; }
+
+std::vector<Mat4f> matrices_over_shutter(const ShapeCommon& common, Shutter shutter) {
+    if (common.matrix.empty() || common.matrix.n == 0) return {Mat4f{}};
+    // A matrix array of n elements and one key means n keys, too: that is how they are written.
+    const std::size_t n = std::size_t{common.matrix.n} * common.matrix.n_keys;
+    const std::span<const Mat4f> keys(common.matrix.data, n);
+    return keys_over_shutter<Mat4f>(keys, {common.motion_start, common.motion_end}, shutter, [](const Mat4f& a, const Mat4f& b, float t) { return lerp(a, b, t); });
+}
+
+/// outer applied after inner, key by key.
+std::vector<Mat4f> compose(const std::vector<Mat4f>& inner, const std::vector<Mat4f>& outer) {
+    const std::size_t n = std::max(inner.size(), outer.size());
+    const auto at = [n](const std::vector<Mat4f>& keys, std::size_t i) {
+        if (keys.size() == 1) return keys[0];
+        const float x = n > 1 ? static_cast<float>(i) / static_cast<float>(n - 1) * static_cast<float>(keys.size() - 1) : 0;
+        const std::size_t k = std::min(static_cast<std::size_t>(x), keys.size() - 2);
+        return lerp(keys[k], keys[k + 1], x - static_cast<float>(k));
+    };
+    std::vector<Mat4f> out;
+    for (std::size_t i = 0; i < n; ++i)
+        out.push_back(at(inner, i) * at(outer, i));
+    return out;
+}
+
+}  // namespace
+
+void Compiler::make_shapes() {
+    // The shutter belongs to the camera that the frame is about.
+    if (const NodeInstance* camera = default_camera(); camera != nullptr) {
+        const auto* start = camera->find<float>("shutter_start");
+        const auto* end = camera->find<float>("shutter_end");
+        if (start != nullptr && end != nullptr) {
+            scene_->settings.shutter_start = *start;
+            scene_->settings.shutter_end = *end;
+        }
+    }
+    for (const auto& node : graph_.nodes())
+        if (node->kind() == NodeKind::Shape && node->type().shape_common != nullptr) place_shape(*node);
+}
+
+std::unique_ptr<ShapeGeometry> Compiler::geometry_of(const NodeInstance& node) {
+    if (node.type().make_geometry == nullptr) return nullptr;
+    CompileContext context(*this, &node, node.name());
+    std::unique_ptr<ShapeGeometry> geometry = node.type().make_geometry(node.block(), context);
+    if (!geometry || geometry->instance_of) return geometry;
+    const bool empty = std::visit([](const auto& g) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(g)>, TriangleMesh>) return g.indices.empty() || g.positions.empty();
+        else return g.radii.empty() || g.centers.empty();
+    }, geometry->data);
+    return empty ? nullptr : std::move(geometry);
+}
+
+void Compiler::resample_motion(ShapeGeometry& geometry, MotionRange range) const {
+    const Shutter shutter = shutter_of(scene_->settings);
+    const auto resample = [&](std::vector<std::vector<Vec3f>>& keys) {
+        if (keys.size() < 2) return;
+        keys = keys_over_shutter<std::vector<Vec3f>>(keys, range, shutter, [](const std::vector<Vec3f>& a, const std::vector<Vec3f>& b, float t) {
+            std::vector<Vec3f> out(a.size());
+            for (std::size_t i = 0; i < a.size(); ++i)
+                out[i] = blend_points(a[i], b[i], t);
+            return out;
+        });
+    };
+    if (auto* mesh = std::get_if<TriangleMesh>(&geometry.data)) {
+        resample(mesh->positions);
+        resample(mesh->normals);
+    } else if (auto* spheres = std::get_if<SphereList>(&geometry.data)) {
+        resample(spheres->centers);
+    }
+}
+
+const ShapeGeometry* Compiler::shared_geometry(const NodeInstance& node) {
+    if (const auto known = geometry_by_node_.find(&node); known != geometry_by_node_.end()) return known->second;
+    std::unique_ptr<ShapeGeometry> geometry = geometry_of(node);
+    const ShapeCommon& common = *node.type().shape_common(node.block());
+    if (geometry) resample_motion(*geometry, {common.motion_start, common.motion_end});
+    const ShapeGeometry* out = geometry.get();
+    if (geometry) scene_->geometries.push_back(std::move(geometry));
+    return geometry_by_node_[&node] = out;
+}
+
+void Compiler::place_shape(const NodeInstance& node) {
+    const ShapeCommon& common = *node.type().shape_common(node.block());
+    if (common.visibility == 0) return;
+    // Follow instances to the shape that has geometry; nested ones are flattened.
+    const Shutter shutter = shutter_of(scene_->settings);
+    std::vector<Mat4f> placement = matrices_over_shutter(common, shutter);
+    const NodeInstance* source = &node;
+    const ShapeGeometry* geometry = shared_geometry(node);
+    for (int depth = 0; geometry != nullptr && geometry->instance_of; ++depth) {
+        if (depth >= kMaxInstanceDepth)
+            return diagnostics_.error(Code::CyclicLink, "instances refer to each other more than " + std::to_string(kMaxInstanceDepth) + " deep", node.where("node"));
+        source = geometry->instance_of.node;
+        if (source->type().shape_common == nullptr)
+            return diagnostics_.error(Code::LinkType, "\"" + source->name().str() + "\" is a " + source->type().name.str() + ", not a shape", node.where("node"));
+        if (geometry->inherit_xform) placement = compose(matrices_over_shutter(*source->type().shape_common(source->block()), shutter), placement);
+        geometry = shared_geometry(*source);
+    }
+    if (geometry == nullptr) return;
+
+    SceneObject object;
+    object.geometry = geometry;
+    object.world_from_object = placement;
+    for (const Mat4f& m : placement) {
+        bool invertible = false;
+        object.object_from_world.push_back(m.inverse(&invertible));
+        if (!invertible || !m.finite()) {
+            diagnostics_.warning(Code::ShapeBad, fmt::format("the matrix of \"{}\" flattens it or is not finite; the shape is left out", node.name().view()), node.where("matrix"));
+            return;
+        }
+    }
+    // What an instance does not write it takes from its source, but for its own visibility.
+    const ShapeCommon& base = *source->type().shape_common(source->block());
+    const auto own = [&](const char* param) -> const ShapeCommon& { return node.is_set(param) ? common : base; };
+    object.shaders = shaders_of(node, *source);
+    object.lights = lights_of(node.is_set("use_light_group") ? node : *source);
+    object.shadow_lights = shadow_lights_of(node.is_set("use_shadow_group") ? node : *source);
+    object.name = node.name();
+    object.id = own("id").id != 0 ? own("id").id : hash_name(node.name().view());
+    object.visibility = common.visibility;
+    object.sidedness = own("sidedness").sidedness;
+    object.matte = own("matte").matte;
+    object.invert_normals = own("invert_normals").invert_normals;
+    object.receive_shadows = own("receive_shadows").receive_shadows;
+    object.self_shadows = own("self_shadows").self_shadows;
+    object.may_be_transparent = std::any_of(object.shaders.begin(), object.shaders.end(), [](const ShaderProgram* p) { return p->may_be_transparent; });
+    scene_->objects.push_back(std::move(object));
+}
+
+std::vector<const ShaderProgram*> Compiler::shaders_of(const NodeInstance& node, const NodeInstance& source) {
+    Array<NodeRef> refs = source.type().shape_common(source.block())->shader;
+    if (node.is_set("shader")) refs = node.type().shape_common(node.block())->shader;
+    NodeRef over;
+    if (graph_.options() != nullptr) over = graph_.options()->get<NodeRef>("shader_override");
+    if (over) refs = {&over, 1, 1};
+    std::vector<const ShaderProgram*> out;
+    for (const NodeRef& ref : refs.first_key()) {
+        const ShaderProgram* program = ref ? program_for(*ref.node) : nullptr;
+        out.push_back(program != nullptr ? program : default_shader());
+    }
+    if (out.empty()) out.push_back(default_shader());
+    for (const ShaderProgram* program : out)
+        surface_shaders_.insert(const_cast<ShaderProgram*>(program));
+    return out;
+}
+
+const LightSampler* Compiler::lights_of(const NodeInstance& node) {
+    const ShapeCommon& common = *node.type().shape_common(node.block());
+    if (!common.use_light_group) return scene_->light_samplers[0].get();
+    std::vector<std::uint32_t> subset;
+    for (const NodeRef& ref : common.light_group.first_key())
+        if (const auto found = light_index_.find(ref.node); found != light_index_.end()) subset.push_back(found->second);
+    std::sort(subset.begin(), subset.end());
+    subset.erase(std::unique(subset.begin(), subset.end()), subset.end());
+    const LightSampler*& sampler = samplers_by_group_[subset];
+    if (sampler == nullptr) {
+        std::vector<const Light*> lights;
+        for (const SceneLight& light : scene_->lights)
+            lights.push_back(light.light.get());
+        scene_->light_samplers.push_back(std::make_unique<LightSampler>(lights, subset));
+        sampler = scene_->light_samplers.back().get();
+    }
+    return sampler;
+}
+
+std::vector<bool> Compiler::shadow_lights_of(const NodeInstance& node) {
+    const ShapeCommon& common = *node.type().shape_common(node.block());
+    if (!common.use_shadow_group) return {};
+    std::vector<bool> out(scene_->lights.size(), false);
+    for (const NodeRef& ref : common.shadow_group.first_key())
+        if (const auto found = light_index_.find(ref.node); found != light_index_.end()) out[found->second] = true;
+    return out;
+}
+
+}  // namespace lightsieve

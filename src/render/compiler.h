@@ -1,0 +1,125 @@
+// How a graph becomes a Scene; private to compile*.cpp.
+//
+// Order: settings and cameras, shaders and shapes, lights, events, outputs and expressions, acceleration structures.
+// Each step reports all that is wrong with it; the scene is handed out only if nothing was.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "render/assets.h"
+#include "render/motion.h"
+#include "render/render.h"
+#include "render/scene.h"
+#include "scene/graph.h"
+#include "scene/node_context.h"
+
+namespace lightsieve {
+
+class Compiler {
+  public:
+    Compiler(const SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics);
+    [[nodiscard]] ScenePtr run();
+
+    // For the node context.
+    [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
+    [[nodiscard]] TextureCache& textures() { return *scene_->textures; }
+    [[nodiscard]] const AssetFinder& assets() const { return assets_; }
+    [[nodiscard]] const RenderSettings& settings() const { return scene_->settings; }
+    [[nodiscard]] bool ignore_missing_textures() const { return ignore_missing_textures_; }
+    /// The program of a shader node; null if it cannot be made (an error was reported).
+    [[nodiscard]] const ShaderProgram* program_for(const NodeInstance& node, int depth = 0);
+    /// Geometry of a shape that is not an instance; null with an error reported.
+    [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(const NodeInstance& node);
+
+  private:
+    /// A shape after following instances: where its geometry is and what instances change.
+    struct Placed;
+
+    // compile.cpp
+    void read_settings();
+    void read_region();
+    void make_cameras();
+    const NodeInstance* default_camera();
+    void finish_depth_rules();
+    void summarize_scene();
+    template <class T>
+    [[nodiscard]] T option(Name param, T fallback) const;
+    [[nodiscard]] SourceSpan option_place(Name param) const;
+
+    // compile_shaders.cpp
+    void link_parameters(const NodeInstance& node, ShaderProgram& program, int depth);
+    [[nodiscard]] bool shader_may_be_transparent(const NodeInstance& node) const;
+    const ShaderProgram* default_shader();
+    void make_background();
+
+    // compile_shapes.cpp
+    void make_shapes();
+    void place_shape(const NodeInstance& node);
+    [[nodiscard]] const ShapeGeometry* shared_geometry(const NodeInstance& node);
+    [[nodiscard]] std::vector<const ShaderProgram*> shaders_of(const NodeInstance& node, const NodeInstance& source);
+    [[nodiscard]] const LightSampler* lights_of(const NodeInstance& node);
+    [[nodiscard]] std::vector<bool> shadow_lights_of(const NodeInstance& node);
+    void resample_motion(ShapeGeometry& geometry, MotionRange range) const;
+
+    // compile_lights.cpp
+    void make_lights();
+    void add_light_geometry();
+
+    // compile_events.cpp
+    void gather_events();
+    std::uint32_t event_index(const Event& event);
+    void fill_records();
+
+    // compile_outputs.cpp
+    void make_views();
+    void part_passes();
+    void make_drivers();
+    void make_driver(PlannedDriver& planned, std::size_t index);
+    void check_files();
+
+    // compile_accel.cpp
+    void make_accels();
+    void find_mask_types();
+
+    const SceneGraph& graph_;
+    const RenderOptions& options_;
+    Diagnostics& diagnostics_;
+    ScenePtr scene_;
+    AssetFinder assets_;
+    bool ignore_missing_textures_ = false, abort_on_error_ = true;
+    std::map<const NodeInstance*, ShaderProgram*> programs_;
+    std::set<const NodeInstance*> failed_shaders_;
+    std::map<const NodeInstance*, const ShapeGeometry*> geometry_by_node_;
+    std::map<const NodeInstance*, std::uint32_t> light_index_;
+    std::map<std::vector<std::uint32_t>, const LightSampler*> samplers_by_group_;
+    std::set<ShaderProgram*> surface_shaders_;      ///< shaders that shapes use: these make events
+    std::map<Event, std::uint32_t> event_index_;
+    const ShaderProgram* default_shader_ = nullptr;
+};
+
+/// What a node may ask of the compiler.
+class CompileContext final : public NodeContext {
+  public:
+    CompileContext(Compiler& compiler, const NodeInstance* node, Name name) : compiler_(compiler), node_(node), name_(name) {}
+    Diagnostics& diagnostics() override { return compiler_.diagnostics(); }
+    SourceSpan where(Name param) const override { return node_ == nullptr ? SourceSpan{} : node_->where(param); }
+    Name node_name() const override { return name_; }
+    ColorInput color_input(Name param) override;
+    bool is_linked(Name param) const override { return node_ != nullptr && node_->is_linked(param); }
+    TextureCache& textures() override { return compiler_.textures(); }
+    std::optional<std::string> find_asset(std::string_view filename) const override { return compiler_.assets().find(filename); }
+    bool ignore_missing_textures() const override { return compiler_.ignore_missing_textures(); }
+    Frame frame() const override;
+    std::unique_ptr<ShapeGeometry> geometry_of(NodeRef shape, Mat4f& world_from_object) override;
+
+  private:
+    Compiler& compiler_;
+    const NodeInstance* node_;
+    Name name_;
+};
+
+}  // namespace lightsieve

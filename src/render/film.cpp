@@ -1,0 +1,202 @@
+#include "render/film.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace lightsieve {
+namespace {
+
+void add_to(std::array<double, 3>& sum, Color value, double factor) {
+    sum[0] += double{value.r} * factor;
+    sum[1] += double{value.g} * factor;
+    sum[2] += double{value.b} * factor;
+}
+
+bool is_light(LayerSource source) { return source == LayerSource::Beauty || source == LayerSource::Expression || source == LayerSource::Black; }
+
+}  // namespace
+
+void Film::begin(const Pass& pass, int width, int height) {
+    width_ = width;
+    height_ = height;
+    const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    wants_data_ = std::any_of(plan_.layers.begin(), plan_.layers.end(), [](const PlannedLayer& l) { return !is_light(l.source); });
+    const lpe::Program& program = *plan_.program;
+    const std::size_t n_keys = program.film_stores_atoms() ? program.n_atoms() : program.n_aovs();
+    views_.resize(pass.views.size());
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        ViewSums& sums = views_[i];
+        sums.view = pass.views[i];
+        sums.closest = plan_.views[sums.view].filter->closest();
+        sums.beauty.assign(n, {});
+        sums.alpha.assign(n, 0);
+        sums.weight.assign(n, 0);
+        sums.count.assign(n, 0);
+        sums.slot_of.assign(n_keys, -1);
+        sums.n_slots = 0;
+        if (!wants_data_ && !sums.closest) continue;
+        sums.data.assign(n, {});
+        sums.opacity.assign(n, {});
+        sums.nearest.assign(n, {});
+        sums.nearest_rank.assign(n, kInfinity);
+    }
+}
+
+std::vector<Film::Sum>& Film::slot(ViewSums& sums, std::uint32_t key) {
+    std::int32_t& at = sums.slot_of[key];
+    if (at < 0) {
+        at = static_cast<std::int32_t>(sums.n_slots++);
+        if (sums.slots.size() < sums.n_slots) sums.slots.emplace_back();
+        sums.slots[static_cast<std::size_t>(at)].assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), {});
+    }
+    return sums.slots[static_cast<std::size_t>(at)];
+}
+
+void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offset, std::span<const float> weights) {
+    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        ViewSums& sums = views_[i];
+        const double weight = double{weights[i]};
+        if (!sums.closest) {
+            sums.weight[pixel] += weight;
+            ++sums.count[pixel];
+            sums.alpha[pixel] += double{sample.alpha} * weight;
+            add_light(sums, pixel, sample, double{scale} * weight);
+        }
+        if (wants_data_ || sums.closest) add_data(sums, pixel, sample, offset, weight);
+    }
+}
+
+void Film::add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double factor) {
+    add_to(sums.beauty[pixel], sample.beauty, factor);
+    const lpe::Program& program = *plan_.program;
+    const bool atoms = program.film_stores_atoms();
+    for (const SampleBuffer::Contribution& c : sample.contributions) {
+        if (atoms) {
+            add_to(slot(sums, c.atom)[pixel], c.value, factor);
+            continue;
+        }
+        for (std::uint32_t aov : program.aovs_of(c.atom))
+            add_to(slot(sums, aov)[pixel], c.value, factor);
+    }
+}
+
+void Film::add_data(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, Vec2f offset, double weight) {
+    const FirstHit& f = sample.first;
+    if (sums.closest) {
+        // Samples inside the filter compete by depth; a sample outside of it only stands in for none at all.
+        const float radius = plan_.views[sums.view].filter->radius();
+        const bool inside = std::max(std::abs(offset.x), std::abs(offset.y)) <= radius;
+        const float distance = f.hit ? f.depth : kLargestDepth;
+        const float rank = inside ? distance : kLargestDepth + std::hypot(offset.x, offset.y);
+        if (rank < sums.nearest_rank[pixel]) {
+            sums.nearest_rank[pixel] = rank;
+            sums.nearest[pixel] = f;
+            sums.alpha[pixel] = double{sample.alpha};
+        }
+        return;
+    }
+    if (!f.hit) return;
+    const std::array<float, 9> values{f.depth, f.normal.x, f.normal.y, f.normal.z, f.position.x, f.position.y, f.position.z, f.uv.x, f.uv.y};
+    for (std::size_t i = 0; i < values.size(); ++i)
+        sums.data[pixel][i] += double{values[i]} * weight;
+    add_to(sums.opacity[pixel], f.opacity, weight);
+    // Ids cannot be averaged: the nearest sample's stands for the pixel.
+    if (f.depth < sums.nearest_rank[pixel]) {
+        sums.nearest_rank[pixel] = f.depth;
+        sums.nearest[pixel].id = f.id;
+    }
+}
+
+double Film::norm_of(const ViewSums& sums, std::size_t pixel) const {
+    // The weights of a filter with negative lobes may nearly cancel; their mean is 1, so the count does.
+    if (plan_.views[sums.view].is_signed) return sums.count[pixel] > 0 ? 1.0 / sums.count[pixel] : 0;
+    return sums.weight[pixel] > 0 ? 1 / sums.weight[pixel] : 0;
+}
+
+const Film::ViewSums& Film::sums_of(std::uint32_t view) const {
+    for (const ViewSums& sums : views_)
+        if (sums.view == view) return sums;
+    report_bug("view belongs to the pass", __FILE__, __LINE__, std::to_string(view));
+}
+
+void Film::resolve(const PlannedLayer& layer, std::vector<float>& out) const {
+    const std::size_t n = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    out.assign(n * layer.info.n_channels, 0.0F);
+    const ViewSums& sums = sums_of(layer.view);
+    if (is_light(layer.source)) return resolve_light(sums, layer, out);
+    resolve_data(sums, layer, out);
+}
+
+void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer, std::vector<float>& out) const {
+    const lpe::Program& program = *plan_.program;
+    // The slots whose sum is this layer, in the order of their atoms: the sum must not depend on which came first.
+    std::vector<const std::vector<Sum>*> parts;
+    if (layer.source == LayerSource::Beauty) parts.push_back(&sums.beauty);
+    if (layer.source == LayerSource::Expression)
+        for (std::uint32_t key = 0; key < sums.slot_of.size(); ++key) {
+            if (sums.slot_of[key] < 0) continue;
+            const std::span<const std::uint32_t> aovs = program.film_stores_atoms() ? program.aovs_of(key) : std::span<const std::uint32_t>(&key, 1);
+            if (std::find(aovs.begin(), aovs.end(), layer.aov) != aovs.end()) parts.push_back(&sums.slots[static_cast<std::size_t>(sums.slot_of[key])]);
+        }
+    const std::size_t n = sums.beauty.size(), channels = layer.info.n_channels;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double norm = norm_of(sums, i);
+        Sum total{};
+        for (const std::vector<Sum>* part : parts)
+            for (std::size_t c = 0; c < 3; ++c)
+                total[c] += (*part)[i][c];
+        float* at = &out[i * channels];
+        if (channels == 1) {
+            at[0] = luminance(Color(static_cast<float>(total[0] * norm), static_cast<float>(total[1] * norm), static_cast<float>(total[2] * norm)));
+            continue;
+        }
+        for (std::size_t c = 0; c < 3; ++c)
+            at[c] = static_cast<float>(total[c] * norm);
+        if (channels == 4) at[3] = static_cast<float>(sums.alpha[i] * norm);
+    }
+}
+
+void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer, std::vector<float>& out) const {
+    const std::size_t channels = layer.info.n_channels;
+    for (std::size_t i = 0; i < sums.weight.size(); ++i) {
+        const FirstHit& f = sums.nearest[i];
+        const double norm = sums.closest ? 0 : norm_of(sums, i);
+        const auto value = [&](std::size_t index, float nearest) { return sums.closest ? nearest : static_cast<float>(sums.data[i][index] * norm); };
+        const auto opacity = [&](std::size_t c) { return sums.closest ? f.opacity[static_cast<int>(c)] : static_cast<float>(sums.opacity[i][c] * norm); };
+        float* at = &out[i * channels];
+        switch (layer.source) {
+            case LayerSource::Depth: at[0] = value(0, f.depth); break;
+            case LayerSource::Normal:
+                for (std::size_t c = 0; c < 3; ++c)
+                    at[c] = value(1 + c, f.normal[static_cast<int>(c)]);
+                break;
+            case LayerSource::Position:
+                for (std::size_t c = 0; c < 3; ++c)
+                    at[c] = value(4 + c, f.position[static_cast<int>(c)]);
+                break;
+            case LayerSource::Uv:
+                at[0] = value(7, f.uv.x);
+                at[1] = value(8, f.uv.y);
+                break;
+            case LayerSource::Alpha: at[0] = static_cast<float>(sums.alpha[i] * (sums.closest ? 1 : norm)); break;
+            case LayerSource::Opacity:
+                if (channels == 1) {
+                    at[0] = (opacity(0) + opacity(1) + opacity(2)) / 3;
+                } else {
+                    for (std::size_t c = 0; c < 3; ++c)
+                        at[c] = opacity(c);
+                }
+                break;
+            case LayerSource::Id: at[0] = std::bit_cast<float>(f.id); break;
+            case LayerSource::Beauty:
+            case LayerSource::Expression:
+            case LayerSource::Black: break;
+        }
+    }
+}
+
+}  // namespace lightsieve

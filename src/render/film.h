@@ -1,0 +1,99 @@
+// Sums of one bucket: the beauty, one sum for each atom that light fell into, and data of the nearest hits.
+//
+// Everything is kept in double and rounded once. A sample's contributions wait in a SampleBuffer until the sample ends,
+// because clamping scales all of them by one factor, so that layers still add up.
+// A film belongs to one thread and one bucket; it is resolved to layers and reused.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "lpe/program.h"
+#include "render/aov_plan.h"
+
+namespace lightsieve {
+
+/// What the camera ray met first; for layers that are no light.
+struct FirstHit {
+    bool hit = false;
+    float depth = 0;             ///< along the viewing axis
+    Vec3f normal, position;      ///< world space
+    Vec2f uv;
+    std::uint32_t id = 0;
+    Color opacity;
+};
+
+/// One camera sample's contributions.
+struct SampleBuffer {
+    struct Contribution {
+        lpe::AtomId atom;
+        Color value;
+    };
+    Color beauty;
+    float alpha = 0;
+    FirstHit first;
+    std::vector<Contribution> contributions;
+
+    void clear() {
+        beauty = {};
+        alpha = 0;
+        first = {};
+        contributions.clear();
+    }
+};
+
+class Film {
+  public:
+    explicit Film(const AovPlan& plan) : plan_(plan) {}
+
+    /// Starts a bucket of one pass.
+    void begin(const Pass& pass, int width, int height);
+    /// Adds a finished sample to a pixel of the bucket.
+    ///
+    /// scale    factor of clamping on all light
+    /// offset   of the sample from the pixel's centre [pixels]
+    /// weights  one a view of the pass: the filter's value over the sampling density
+    void add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offset, std::span<const float> weights);
+    /// Values of a layer for the whole bucket: height * width * n_channels floats, row by row.
+    void resolve(const PlannedLayer& layer, std::vector<float>& out) const;
+
+  private:
+    using Sum = std::array<double, 3>;
+    /// Beyond every depth of a hit: rank of samples that met nothing.
+    static constexpr float kLargestDepth = 1e30F;
+    /// Sums of one filter view.
+    struct ViewSums {
+        std::uint32_t view = 0;
+        std::vector<Sum> beauty;
+        std::vector<double> alpha;
+        std::vector<double> weight;               ///< sum of filter weights a pixel
+        std::vector<std::uint32_t> count;         ///< samples a pixel
+        std::vector<std::int32_t> slot_of;        ///< by atom (or AOV): -1 until light falls into it
+        std::vector<std::vector<Sum>> slots;
+        std::size_t n_slots = 0;
+        /// Data layers: means under a filter, or the nearest sample.
+        std::vector<std::array<double, 9>> data;  ///< depth, normal, position, uv
+        std::vector<Sum> opacity;
+        std::vector<FirstHit> nearest;
+        std::vector<float> nearest_rank;           ///< the smaller the nearer
+        bool closest = false;
+    };
+    std::vector<Sum>& slot(ViewSums& sums, std::uint32_t key);
+    void add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double factor);
+    void add_data(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, Vec2f offset, double weight);
+    /// What a pixel's sums are multiplied by to become means.
+    [[nodiscard]] double norm_of(const ViewSums& sums, std::size_t pixel) const;
+    [[nodiscard]] const ViewSums& sums_of(std::uint32_t view) const;
+    void resolve_light(const ViewSums& sums, const PlannedLayer& layer, std::vector<float>& out) const;
+    void resolve_data(const ViewSums& sums, const PlannedLayer& layer, std::vector<float>& out) const;
+
+    const AovPlan& plan_;
+    std::vector<ViewSums> views_;
+    bool wants_data_ = false;
+    int width_ = 0, height_ = 0;
+};
+
+}  // namespace lightsieve

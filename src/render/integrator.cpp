@@ -1,0 +1,499 @@
+#include "render/integrator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/sampling.h"
+#include "render/path_log.h"
+
+namespace lightsieve {
+namespace {
+
+/// Shadow rays end this much (relative) before a light, so that they do not meet its own shape.
+constexpr float kShadowEpsilon = 1e-4F;
+/// Light geometry up to this much (relative) behind a surface still counts as in front: lamps lie in ceilings.
+constexpr float kCoplanar = 1e-4F;
+/// Area lights that one ray may pass.
+constexpr int kMaxLightsAlongRay = 256;
+/// Roulette never kills nor spares more surely than this.
+constexpr float kLeastSurvival = 0.05F, kMostSurvival = 0.95F;
+/// Segments of a path, transparent surfaces included: a guard against geometry that rays cannot leave.
+constexpr std::uint32_t kMaxSegments = 1024;
+
+/// The ray of a group as a bit of a mask.
+std::uint32_t bit_of(const PathGroup& group) { return ray_bit(group.key.ray_type); }
+
+}  // namespace
+
+template <class Tracker>
+void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time, const Mat4f& camera_from_world, const Sampler& sampler, SampleBuffer& out) {
+    // The camera event: one share of throughput.
+    sampler_ = &sampler;
+    out_ = &out;
+    out.clear();
+    path_start_ = Color::grey(camera_ray.weight);
+    groups_.start(path_start_);
+    tracker_.start(path_start_, out);
+    last_ = {};
+    footprint_ = {camera_ray.width, camera_ray.spread};
+    passed_ = kWhite;
+    n_scatter_ = n_transparent_ = 0;
+    Ray ray{camera_ray.origin, camera_ray.direction, camera_ray.t_min, camera_ray.t_max, time};
+
+    for (segment_ = 0; segment_ < kMaxSegments && wanted(); ++segment_) {
+        // Find the next surface, and the lights before it.
+        choose_mask_group();
+        lights_only_ = std::all_of(groups_.all().begin(), groups_.all().end(), [](const PathGroup& g) { return g.key.lights_only; });
+        RayHit hit;
+        ++counts.rays;
+        const bool met = scene_.accel->intersect(ray, ray_mask(), hit);
+        if (scene_.light_accel && add_area_lights(ray, met ? hit.t : ray.t_max)) return;
+
+        // A ray that leaves the scene brings infinite lights and the background.
+        if (!met) return add_escape(ray);
+        const SceneObject& object = scene_.objects[hit.object];
+        if (lights_only_ && !object.may_be_transparent) return;
+
+        // Surfaces may have one side only, or be holes in the picture.
+        Surface surface = make_surface(object, ray, hit, footprint_);
+        const RayType ray_type = groups_[0].key.ray_type;
+        surface.at.ray_type = ray_type;
+        const bool from_camera = ray_type == RayType::Camera;
+        if (!surface.at.entering && (object.sidedness & ray_bit(ray_type)) == 0) {
+            ray.origin = offset_ray_origin(surface.at.position, -surface.outward);
+            ray.t_min = 0;
+            ray.t_max -= hit.t;
+            continue;
+        }
+        if (object.matte && from_camera) return;
+
+        // Run the shader.
+        closures_.begin(surface.at.wo, surface.frame);
+        surface.shader->closures(surface.at, closures_);
+        counts.dropped_closures += closures_.n_dropped();
+        if (from_camera) note_first_hit(surface, camera_from_world);
+        if (!lights_only_) {
+            add_emission();
+            gather_channels();
+            if (scene_.plan.wants_probes) add_probes();
+        } else {
+            n_channels_ = 0;
+        }
+
+        // Direct light, value by lobe; then a direction from the mixture, and every share splits over the lobes.
+        choose_probabilities();
+        if (n_channels_ > 0) add_light_samples(surface);
+        if (!scatter(surface, ray)) return;
+    }
+}
+
+/// Where masks tell shares of the ray apart, one of them goes on, chosen by luminance.
+template <class Tracker>
+void Integrator<Tracker>::choose_mask_group() {
+    const std::span<const PathGroup> groups = groups_.all();
+    if (groups.size() < 2 || scene_.mask_types == 0) return;
+    const auto kind = [&](const PathGroup& g) { return bit_of(g) & scene_.mask_types; };
+    const std::uint32_t first = kind(groups[0]);
+    if (std::all_of(groups.begin(), groups.end(), [&](const PathGroup& g) { return kind(g) == first; })) return;
+    float total = 0;
+    for (const PathGroup& g : groups)
+        total += luminance(g.throughput);
+    float u = random(1) * total;
+    std::size_t chosen = 0;
+    while (chosen + 1 < groups.size() && u >= luminance(groups[chosen].throughput))
+        u -= luminance(groups[chosen++].throughput);
+    const float y = luminance(groups[chosen].throughput);
+    if (!(y > 0)) return;
+    groups_.keep_only(chosen, total / y);
+    tracker_.keep_only(chosen, total / y);
+}
+
+template <class Tracker>
+std::uint32_t Integrator<Tracker>::ray_mask() const {
+    std::uint32_t mask = 0;
+    for (const PathGroup& g : groups_.all())
+        mask |= bit_of(g);
+    return mask;
+}
+
+/// Factor on a light by the event before it: its contribution multipliers.
+template <class Tracker>
+float Integrator<Tracker>::light_factor(const LightCommon& light, RayType type, int n_scatter) const {
+    if (n_scatter - 1 > light.max_bounces) return 0;
+    const float indirect = n_scatter > 1 ? light.indirect : 1;
+    switch (type) {
+        case RayType::Camera: return light.camera;
+        case RayType::SpecularTransmit: return light.transmission * indirect;
+        case RayType::SpecularReflect: return light.specular * indirect;
+        case RayType::Subsurface: return light.sss * indirect;
+        case RayType::Volume: return light.volume * indirect;
+        default: return light.diffuse * indirect;
+    }
+}
+
+/// indirect_sample_clamp: one factor for all shares of light that scattered more than once.
+template <class Tracker>
+float Integrator<Tracker>::clamp_factor(Color total, int n_scatter) const {
+    const float largest = max_component(total);
+    return n_scatter > 1 && largest > scene_.settings.indirect_clamp ? scene_.settings.indirect_clamp / largest : 1;
+}
+
+template <class Tracker>
+template <class Value>
+void Integrator<Tracker>::deposit(Terminal terminal, const Value& value) {
+    Color total;
+    const std::span<const PathGroup> groups = groups_.all();
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        total += groups[g].throughput * value(g);
+    if (is_black(total)) return;
+    if (!is_finite(total)) {
+        ++counts.dropped;
+        return;
+    }
+    const float scale = clamp_factor(total, n_scatter_);
+    out_->beauty += total * scale;
+    tracker_.add(terminal, value, scale);
+}
+
+template <class Tracker>
+template <class Value>
+void Integrator<Tracker>::deposit_scattered(Terminal terminal, const Value& value) {
+    Color total;
+    const std::span<const PathGroup> groups = groups_.all();
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (std::size_t c = 0; c < n_channels_; ++c)
+            total += groups[g].throughput * value(g, c);
+    if (is_black(total)) return;
+    if (!is_finite(total)) {
+        ++counts.dropped;
+        return;
+    }
+    const float scale = clamp_factor(total, n_scatter_ + 1);
+    out_->beauty += total * scale;
+    tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, value, scale);
+}
+
+/// Adds the area lights that the ray meets before `t_surface`. True if one of them hides what is behind it.
+template <class Tracker>
+bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
+    Ray rest = ray;
+    rest.t_max = t_surface * (1 + kCoplanar);
+    RayHit hit;
+    for (int i = 0; i < kMaxLightsAlongRay && scene_.light_accel->intersect(rest, 0xffffffffU, hit); ++i) {
+        const std::uint32_t index = scene_.light_of_object[hit.object];
+        const SceneLight& light = scene_.lights[index];
+        const LightHit at = make_light_hit(scene_.light_objects[hit.object], ray, hit);
+        rest.t_min = std::nextafter(hit.t, kInfinity);
+        const Terminal terminal{light.as_light, light.light_event};
+        if (n_scatter_ == 0) {
+            // Seen directly: the light stands in the picture as far as its `camera` says.
+            const float seen = light.common.camera;
+            if (!(seen > 0)) continue;
+            const Color radiance = light.light->hit(ray.origin, at).radiance;
+            if (is_black(radiance)) continue;
+            deposit(terminal, [&](std::size_t) { return radiance * seen; });
+            const float hidden = std::min(seen, 1.0F);
+            out_->alpha += average(passed_) * hidden;
+            if (hidden >= 1) return true;
+            groups_.scale(Color::grey(1 - hidden));
+            tracker_.scale(Color::grey(1 - hidden));
+            passed_ *= 1 - hidden;
+            continue;
+        }
+        if (!last_.delta && (light.samples_only || last_.samples_only)) continue;
+        LightHit seen_from = at;
+        seen_from.distance = length(at.position - last_.position);
+        const LightEval eval = light.light->hit(last_.position, seen_from);
+        if (is_black(eval.radiance)) continue;
+        const float pick = last_.lights->probability(last_.position, last_.pick_normal, index);
+        if (!(pick > 0)) continue;  // in the dark by its own bounds, or not in the shape's light group
+        const float weight = last_.delta ? 1 : power_heuristic(last_.pdf, pick * eval.pdf);
+        deposit(terminal, [&](std::size_t g) { return eval.radiance * (weight * light_factor(light.common, groups_[g].key.ray_type, n_scatter_)); });
+    }
+    return false;
+}
+
+/// Infinite lights and the background shader.
+template <class Tracker>
+void Integrator<Tracker>::add_escape(const Ray& ray) {
+    float alpha = 0;
+    for (const std::uint32_t index : scene_.infinite_lights) {
+        const SceneLight& light = scene_.lights[index];
+        if (n_scatter_ > 0 && !last_.delta && (light.samples_only || last_.samples_only)) continue;
+        const LightEval eval = light.light->escape(ray.direction);
+        if (n_scatter_ == 0 && light.common.camera > 0) alpha = std::max(alpha, eval.pdf > 0 || !is_black(eval.radiance) || light.is_skydome ? std::min(light.common.camera, 1.0F) : 0.0F);
+        if (is_black(eval.radiance)) continue;
+        float weight = 1;
+        if (n_scatter_ > 0) {
+            const float pick = last_.lights->probability(last_.position, last_.pick_normal, index);
+            if (!(pick > 0)) continue;
+            if (!last_.delta) weight = power_heuristic(last_.pdf, pick * eval.pdf);
+        }
+        // A skydome seen directly is background, and so is the light of one with aov_indirect.
+        const bool background = light.is_skydome && (n_scatter_ == 0 || light.common.aov_indirect);
+        const Terminal terminal = background ? Terminal{light.as_background, light.background_event} : Terminal{light.as_light, light.light_event};
+        deposit(terminal, [&](std::size_t g) { return eval.radiance * (weight * light_factor(light.common, groups_[g].key.ray_type, n_scatter_)); });
+    }
+    if (scene_.background != nullptr && !lights_only_) {
+        ShadePoint at;
+        at.direction = ray.direction;
+        at.wo = -ray.direction;
+        at.ray_type = groups_[0].key.ray_type;
+        at.uv = {0.5F - std::atan2(ray.direction.x, ray.direction.z) * (0.5F * kInvPi), 0.5F + std::asin(std::clamp(ray.direction.y, -1.0F, 1.0F)) * kInvPi};
+        const Color radiance = scene_.background->value(at).rgb;
+        const auto visible = [&](std::size_t g) { return (scene_.background_visibility & bit_of(groups_[g])) != 0 && !groups_[g].key.lights_only; };
+        deposit({scene_.background_record.terminal, scene_.background_record.event}, [&](std::size_t g) { return visible(g) ? radiance : kBlack; });
+        if (n_scatter_ == 0 && visible(0)) alpha = 1;
+    }
+    if (n_scatter_ == 0) out_->alpha += average(passed_) * alpha;
+}
+
+/// Alpha, and what data layers show: the first surface that is not wholly transparent.
+template <class Tracker>
+void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& camera_from_world) {
+    const Color opacity = clamp(kWhite - closures_.transparency(), 0, 1);
+    out_->alpha += average(passed_ * clamp(opacity - closures_.matte(), 0, 1));
+    if (out_->first.hit || is_black(opacity)) return;
+    out_->first = {true, -camera_from_world.point(surface.at.position).z, surface.at.normal, surface.at.position, surface.at.uv, surface.object->id, opacity};
+}
+
+template <class Tracker>
+void Integrator<Tracker>::add_emission() {
+    for (const Emission& e : closures_.emissions())
+        deposit({e.record->terminal, e.record->event}, [&](std::size_t g) { return groups_[g].key.lights_only ? kBlack : e.radiance; });
+}
+
+/// Lobes that make one event become one channel.
+template <class Tracker>
+void Integrator<Tracker>::gather_channels() {
+    n_channels_ = 0;
+    transmissive_ = false;
+    const std::span<const Closure> closures = closures_.closures();
+    for (std::size_t i = 0; i < closures.size(); ++i) {
+        transmissive_ |= closures[i].record->kind == EventKind::Transmission;
+        std::size_t c = 0;
+        while (c < n_channels_ && !channels_[c].matches(closures[i]))
+            ++c;
+        if (c == n_channels_) channels_[n_channels_++] = {closures[i].record, closures[i].caustics};
+        channel_of_[i] = static_cast<std::uint8_t>(c);
+    }
+}
+
+/// Albedo probes: what the path would carry under uniform white light. Never clamped, never part of the beauty.
+template <class Tracker>
+void Integrator<Tracker>::add_probes() {
+    std::array<Color, kMaxChannels> albedo{};
+    for (std::size_t i = 0; i < closures_.closures().size(); ++i)
+        albedo[channel_of_[i]] += closures_.albedo(i);
+    tracker_.add_scattered(std::span(channels_.data(), n_channels_), {scene_.probe, scene_.probe_event},
+                           [&](std::size_t g, std::size_t c) { return groups_[g].key.lights_only || !channel_allowed(groups_[g].key, channels_[c]) ? kBlack : albedo[c]; }, 1);
+}
+
+/// How likely each closure, or passing straight through, is drawn: by what it can carry on.
+template <class Tracker>
+void Integrator<Tracker>::choose_probabilities() {
+    // Throughput that may use each channel.
+    std::array<Color, kMaxChannels> reach{};
+    for (std::size_t c = 0; c < n_channels_; ++c)
+        for (const PathGroup& g : groups_.all())
+            if (!g.key.lights_only && channel_allowed(g.key, channels_[c])) reach[c] += g.throughput;
+    float total = 0;
+    const std::size_t n = n_channels_ > 0 ? closures_.closures().size() : 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        probability_[i] = std::max(0.0F, luminance(reach[channel_of_[i]] * closures_.albedo(i)));
+        total += probability_[i];
+    }
+    const bool may_pass = n_transparent_ < scene_.settings.auto_transparency_depth;
+    const float through = may_pass ? std::max(0.0F, luminance(groups_.total() * closures_.transparency())) : 0;
+    const float sum = total + through;
+    pass_probability_ = sum > 0 ? through / sum : 0;
+    for (std::size_t i = 0; i < n; ++i)
+        probability_[i] = sum > 0 ? probability_[i] / sum : 0;
+}
+
+template <class Tracker>
+float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi, std::span<Color> by_channel) const {
+    // Reflection must leave on the geometric side of wo, transmission on the other: no light leaks through normals.
+    const bool same_side = dot(wi, surface.outward) > 0;
+    const std::span<const Closure> closures = closures_.closures();
+    float pdf = 0;
+    for (std::size_t i = 0; i < closures.size(); ++i) {
+        if (closures_.delta(i)) continue;
+        const LobeEval eval = closures_.eval(i, wi);
+        pdf += probability_[i] * eval.pdf;
+        if ((closures[i].record->kind == EventKind::Reflection) == same_side) by_channel[channel_of_[i]] += eval.f;
+    }
+    return pdf;
+}
+
+template <class Tracker>
+void Integrator<Tracker>::add_light_samples(const Surface& surface) {
+    const LightSampler* lights = surface.object->lights;
+    if (lights->empty()) return;
+    const Vec3f normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
+    const Dimensions at{Dimensions::kFirst + segment_ * Dimensions::kPerSegment};
+    const LightPick pick = lights->pick(surface.at.position, normal, sampler_->at2(at.choice()).y);
+    if (!(pick.probability > 0)) return;
+    const SceneLight& light = scene_.lights[pick.light];
+    const LightSample sample = light.light->sample(surface.at.position, sampler_->at2(at.light()));
+    if (!(sample.pdf > 0) || is_black(sample.radiance)) return;
+    std::array<Color, kMaxChannels> value{};
+    const float pdf_lobes = evaluate(surface, sample.wi, value);
+    if (std::all_of(value.begin(), value.begin() + static_cast<std::ptrdiff_t>(n_channels_), is_black)) return;
+
+    // Without a way to meet the light by a ray the light sample stands alone.
+    const SceneObject& object = *surface.object;
+    const bool samples_only = light.samples_only || !object.receive_shadows || !object.shadow_lights.empty();
+    const float pdf_light = pick.probability * sample.pdf;
+    const float weight = sample.delta || samples_only ? 1 : power_heuristic(pdf_light, pdf_lobes);
+    const Color visible = transmittance(surface, pick.light, sample);
+    if (is_black(visible)) return;
+    const Color arriving = sample.radiance * visible * (weight / pdf_light);
+    const bool background = light.is_skydome && light.common.aov_indirect;
+    const Terminal terminal = background ? Terminal{light.as_background, light.background_event} : Terminal{light.as_light, light.light_event};
+    deposit_scattered(terminal, [&](std::size_t g, std::size_t c) {
+        const GroupKey& key = groups_[g].key;
+        if (key.lights_only || !channel_allowed(key, channels_[c])) return kBlack;
+        const LobeRecord& record = *channels_[c].record;
+        return value[c] * arriving * light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface), n_scatter_ + 1);
+    });
+}
+
+template <class Tracker>
+Color Integrator<Tracker>::transmittance(const Surface& surface, std::uint32_t index, const LightSample& sample) {
+    const SceneLight& light = scene_.lights[index];
+    const SceneObject& object = *surface.object;
+    if (!light.common.cast_shadows || !object.receive_shadows) return kWhite;
+    if (!object.shadow_lights.empty() && !object.shadow_lights[index]) return kWhite;
+    const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
+    Ray ray{offset_ray_origin(surface.at.position, side), sample.wi, 0, sample.distance * (1 - kShadowEpsilon), surface.at.time};
+    const Color through = transmittance_along(ray, object.self_shadows ? nullptr : &object);
+    if (light.common.shadow_density == 1 && is_black(light.common.shadow_color)) return through;
+    const Color shadow = (kWhite - through) * light.common.shadow_density;
+    return kWhite - shadow + shadow * light.common.shadow_color;
+}
+
+template <class Tracker>
+Color Integrator<Tracker>::transmittance_along(Ray ray, const SceneObject* ignore) {
+    ++counts.rays;
+    const std::uint32_t both = kMaskShadowOpaque | kMaskShadowTransparent;
+    if (ignore == nullptr && scene_.accel->occluded(ray, kMaskShadowOpaque)) return kBlack;
+    if (ignore == nullptr && !scene_.has_transparency) return kWhite;
+    Color through = kWhite;
+    // The limit counts surfaces that weaken the light; the object itself is passed as often as it takes.
+    for (int passed = 0; passed <= scene_.settings.auto_transparency_depth;) {
+        RayHit hit;
+        ++counts.rays;
+        if (!scene_.accel->intersect(ray, ignore == nullptr ? kMaskShadowTransparent : both, hit)) return through;
+        const SceneObject& object = scene_.objects[hit.object];
+        const Surface surface = make_surface(object, ray, hit, {});
+        const bool one_sided = !surface.at.entering && (object.sidedness & ray_bit(RayType::Shadow)) == 0;
+        if (&object != ignore && !one_sided) {
+            if (!object.may_be_transparent) return kBlack;
+            ClosureSet shadow;
+            ShadePoint at = surface.at;
+            at.ray_type = RayType::Shadow;
+            shadow.begin(at.wo, surface.frame);
+            surface.shader->closures(at, shadow);
+            through *= clamp(shadow.transparency(), 0, 1);
+            if (is_black(through)) return kBlack;
+            ++passed;
+        }
+        const Vec3f origin = offset_ray_origin(surface.at.position, -surface.outward);
+        ray.t_max -= dot(origin - ray.origin, ray.direction);
+        if (!(ray.t_max > 0)) return through;
+        ray.origin = origin;
+    }
+    return kBlack;
+}
+
+template <class Tracker>
+bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
+    const Dimensions at{Dimensions::kFirst + segment_ * Dimensions::kPerSegment};
+    float u = sampler_->at2(at.choice()).x;
+
+    // Straight through: no event, no depth.
+    if (u < pass_probability_) {
+        const Color factor = closures_.transparency() * (1 / pass_probability_);
+        groups_.scale(factor);
+        tracker_.scale(factor);
+        passed_ *= factor;
+        ++n_transparent_;
+        const Vec3f origin = offset_ray_origin(surface.at.position, -surface.outward);
+        ray.t_max -= std::max(0.0F, dot(origin - ray.origin, ray.direction));
+        ray.origin = origin;
+        ray.t_min = 0;
+        return ray.t_max > 0;
+    }
+    u -= pass_probability_;
+
+    // Draw a closure.
+    const std::size_t n = n_channels_ > 0 ? closures_.closures().size() : 0;
+    std::size_t drawn = 0;
+    while (drawn < n && u >= probability_[drawn])
+        u -= probability_[drawn++];
+    // Rounding may leave a crumb behind the last one: it belongs to the last that can be drawn.
+    while (drawn >= n || !(probability_[drawn] > 0)) {
+        if (drawn == 0) return false;
+        --drawn;
+    }
+    const float u_choice = sampler_->at2(at.roulette()).y;
+    const LobeSample sample = closures_.sample(drawn, sampler_->at2(at.direction()), u_choice);
+    if (!(sample.pdf > 0)) return false;
+
+    // What each channel carries into that direction, over the density of the mixture.
+    std::array<Color, kMaxChannels> factors{};
+    const bool delta = closures_.delta(drawn);
+    float pdf = 0;
+    if (delta) {
+        const bool reflected = closures_.closures()[drawn].record->kind == EventKind::Reflection;
+        if (reflected != (dot(sample.wi, surface.outward) > 0)) return false;
+        factors[channel_of_[drawn]] = sample.f * (1 / probability_[drawn]);
+    } else {
+        pdf = evaluate(surface, sample.wi, factors);
+        if (!(pdf > 0)) return false;
+        for (std::size_t c = 0; c < n_channels_; ++c)
+            factors[c] *= 1 / pdf;
+    }
+    for (std::size_t c = 0; c < n_channels_; ++c)
+        if (!is_finite(factors[c])) {
+            ++counts.dropped;
+            return false;
+        }
+
+    // Every share splits over the channels.
+    const std::span<const Channel> channels(channels_.data(), n_channels_);
+    const std::span<const Color> by_channel(factors.data(), n_channels_);
+    PathGroups::Step step;
+    const auto draw = [this](std::uint32_t stream) { return random(16 + stream); };
+    groups_.scatter(channels, by_channel, scene_.depth_rules, draw, step);
+    tracker_.scatter(channels, by_channel, step, draw);
+    ++n_scatter_;
+    if (is_black(groups_.total())) return false;
+    if (!survives_roulette()) return false;
+
+    const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
+    last_ = {surface.at.position, transmissive_ ? Vec3f{0, 0, 0} : surface.outward, surface.object->lights, pdf, delta,
+             !surface.object->receive_shadows || !surface.object->shadow_lights.empty()};
+    footprint_.width += footprint_.spread * surface.t;
+    ray = {offset_ray_origin(surface.at.position, side), sample.wi, 0, kInfinity, surface.at.time};
+    return true;
+}
+
+/// Ends faint paths early; what survives carries more. Goes by the shares of the beauty, never by what AOVs are asked for.
+template <class Tracker>
+bool Integrator<Tracker>::survives_roulette() {
+    if (scene_.settings.roulette_depth < 0 || n_scatter_ <= scene_.settings.roulette_depth) return true;
+    const float start = max_component(path_start_);
+    const float q = std::clamp(max_component(groups_.total()) / start, kLeastSurvival, kMostSurvival);
+    const Dimensions at{Dimensions::kFirst + segment_ * Dimensions::kPerSegment};
+    if (sampler_->at2(at.roulette()).x >= q) return false;
+    groups_.scale(Color::grey(1 / q));
+    tracker_.scale(Color::grey(1 / q));
+    return true;
+}
+
+template class Integrator<AovTracker>;
+template class Integrator<LogTracker>;
+
+}  // namespace lightsieve

@@ -1,0 +1,115 @@
+// The path tracer: one camera sample to light in every AOV.
+//
+// A unidirectional path tracer with next event estimation, multiple importance sampling of lights and lobes, and a
+// throughput that is split by lobe history (render/path_terms.h). `trace` reads top to bottom; the numbers of the sampler's
+// dimensions are fixed by the segment, so that a sample never depends on what other paths did.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/sobol.h"
+#include "render/film.h"
+#include "render/path_terms.h"
+#include "render/scene.h"
+#include "render/surface.h"
+#include "render/trackers.h"
+
+namespace lightsieve {
+
+/// Counts of one thread; added up at the end.
+struct TraceCounts {
+    std::uint64_t rays = 0;             ///< closest-hit and shadow rays
+    std::uint64_t dropped = 0;          ///< contributions that were not finite
+    std::uint64_t dropped_closures = 0; ///< closures that did not fit into a ClosureSet
+};
+
+template <class Tracker>
+class Integrator {
+  public:
+    explicit Integrator(const Scene& scene) : scene_(scene), tracker_(scene) {}
+
+    /// Traces one camera sample; everything that it brings is added to `out`.
+    void trace(const CameraRay& camera_ray, float time, const Mat4f& camera_from_world, const Sampler& sampler, SampleBuffer& out);
+
+    TraceCounts counts;
+    [[nodiscard]] Tracker& tracker() { return tracker_; }
+
+  private:
+    /// The vertex that the current ray left: what MIS must know when the ray meets a light.
+    struct LastVertex {
+        Vec3f position;
+        Vec3f pick_normal;                      ///< as given to the light sampler
+        const LightSampler* lights = nullptr;
+        float pdf = 0;                          ///< of the direction, mixture of all lobes, per solid angle
+        bool delta = true;                      ///< the direction could not have come from a light sample
+        bool samples_only = false;              ///< shadows on the surface are tampered with: rays find no lights
+    };
+    /// Numbers of the sampler's pairs of dimensions within a segment of the path.
+    struct Dimensions {
+        static constexpr std::uint32_t kFirst = 4, kPerSegment = 4;
+        std::uint32_t base;
+        [[nodiscard]] std::uint32_t choice() const { return base; }          ///< x: lobe, y: light
+        [[nodiscard]] std::uint32_t direction() const { return base + 1; }   ///< direction of the lobe
+        [[nodiscard]] std::uint32_t light() const { return base + 2; }       ///< point on the light
+        [[nodiscard]] std::uint32_t roulette() const { return base + 3; }    ///< x: roulette, y: choice within a lobe
+    };
+
+    // Steps of `trace`, in order.
+    void choose_mask_group();
+    [[nodiscard]] std::uint32_t ray_mask() const;
+    bool add_area_lights(const Ray& ray, float t_surface);
+    void add_escape(const Ray& ray);
+    void note_first_hit(const Surface& surface, const Mat4f& camera_from_world);
+    void add_emission();
+    void gather_channels();
+    void add_probes();
+    void choose_probabilities();
+    void add_light_samples(const Surface& surface);
+    /// Draws the next direction; false if the path ends.
+    bool scatter(const Surface& surface, Ray& ray);
+    bool survives_roulette();
+
+    // Parts of them.
+    template <class Value>
+    void deposit(Terminal terminal, const Value& value);
+    template <class Value>
+    void deposit_scattered(Terminal terminal, const Value& value);
+    /// Light that gets through from the surface to the light: 1, 0 or between for transparent shadows.
+    [[nodiscard]] Color transmittance(const Surface& surface, std::uint32_t light, const LightSample& sample);
+    [[nodiscard]] Color transmittance_along(Ray ray, const SceneObject* ignore);
+    /// Values by channel for a direction, and the mixture's density.
+    float evaluate(const Surface& surface, Vec3f wi, std::span<Color> by_channel) const;
+    [[nodiscard]] float light_factor(const LightCommon& light, RayType type, int n_scatter) const;
+    [[nodiscard]] float clamp_factor(Color total, int n_scatter) const;
+    [[nodiscard]] float random(std::uint32_t stream) const { return sampler_->random(hash_combine(segment_, stream)); }
+    [[nodiscard]] bool wanted() const { return scene_.plan.wants_beauty || tracker_.live(); }
+
+    const Scene& scene_;
+    Tracker tracker_;
+    PathGroups groups_;
+    ClosureSet closures_;
+    const Sampler* sampler_ = nullptr;
+    SampleBuffer* out_ = nullptr;
+    LastVertex last_;
+    Footprint footprint_;
+    Color passed_;                ///< what transparent surfaces let through on the camera ray
+    Color path_start_;            ///< throughput at the camera, which roulette compares with
+    std::uint32_t segment_ = 0;
+    int n_scatter_ = 0;           ///< scattering events so far
+    int n_transparent_ = 0;       ///< transparent surfaces passed
+    bool lights_only_ = false;    ///< no share of the path may meet anything but lights
+
+    // Of the current vertex.
+    std::array<Channel, kMaxChannels> channels_;
+    std::size_t n_channels_ = 0;
+    std::array<std::uint8_t, ClosureSet::kMaxClosures> channel_of_;
+    std::array<float, ClosureSet::kMaxClosures> probability_;   ///< of drawing each closure
+    float pass_probability_ = 0;                                ///< of going straight through
+    bool transmissive_ = false;                                 ///< some lobe sends light to the other side
+};
+
+extern template class Integrator<AovTracker>;
+
+}  // namespace lightsieve

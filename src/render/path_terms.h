@@ -1,0 +1,329 @@
+// What a path carries: throughput split by everything that later decisions depend on.
+//
+// A direction is drawn from the mixture of all lobes, so it belongs to all of them. The path therefore keeps, beside
+// each other, the shares that came through different lobes (docs/architecture.md, "From lobe to AOV, exactly"):
+//
+//   groups   by depth counters and last ray type: what Arnold's depth limits, masks and light multipliers go by.
+//            They exist for the beauty alone and never depend on which AOVs are asked for.
+//   terms    by group and automaton state: what the AOVs need. The terms of a group add up to the group's throughput
+//            (but for terms that no AOV can use any more, which are dropped).
+//
+// Equal keys merge. More than kMaxGroups groups: the faintest are joined by a weighted coin (unbiased). More than
+// kMaxTerms terms: a null-vector step (render/term_reduction.h) drops one and keeps the group's sum exact.
+//
+// The machine is a template argument: the renderer steps the engine's automaton, the path log a tree of histories.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bsdf/closure.h"
+#include "core/ray_type.h"
+#include "core/vec.h"
+#include "render/term_reduction.h"
+
+namespace lightsieve {
+
+/// How many bounces of each kind a path may make, as options.GI_*_depth.
+struct DepthLimits {
+    std::uint8_t diffuse = 0, specular = 0, transmission = 2, volume = 0, total = 10;
+};
+
+/// Depth counters and last ray type of a share of a path.
+struct GroupKey {
+    std::uint8_t diffuse = 0, specular = 0, transmission = 0, volume = 0;
+    RayType ray_type = RayType::Camera;
+    bool lights_only = false;  ///< past a depth limit: the ray may still meet lights, everything else is black
+    friend bool operator==(const GroupKey&, const GroupKey&) = default;
+    [[nodiscard]] int total() const { return diffuse + specular + transmission + volume; }
+};
+
+/// The ray that leaves a vertex through a lobe.
+[[nodiscard]] constexpr RayType ray_type_of(EventKind kind, EventLobe lobe, bool subsurface) {
+    if (subsurface) return RayType::Subsurface;
+    if (kind == EventKind::Volume) return RayType::Volume;
+    if (kind == EventKind::Reflection) return lobe == EventLobe::Diffuse ? RayType::DiffuseReflect : RayType::SpecularReflect;
+    return lobe == EventLobe::Diffuse ? RayType::DiffuseTransmit : RayType::SpecularTransmit;
+}
+
+/// Lobes of one hit that make the same event and obey the same rules, taken together.
+struct Channel {
+    const LobeRecord* record = nullptr;
+    bool caustics = true;
+
+    [[nodiscard]] bool matches(const Closure& closure) const {
+        const LobeRecord& a = *record;
+        const LobeRecord& b = *closure.record;
+        return a.event == b.event && a.kind == b.kind && a.lobe == b.lobe && a.subsurface == b.subsurface && caustics == closure.caustics;
+    }
+};
+
+inline constexpr std::size_t kMaxChannels = ClosureSet::kMaxClosures;
+
+/// Turns depth counters into the next ones, and forgets differences that can no longer matter.
+class DepthRules {
+  public:
+    /// type_matters  whether anything in the scene tells these ray types apart; others become one
+    DepthRules(DepthLimits limits, std::array<bool, 8> type_matters) : limits_(limits), type_matters_(type_matters) {}
+
+    [[nodiscard]] GroupKey next(GroupKey key, const LobeRecord& through) const {
+        // Which counter an event uses: RD and TD diffuse, RS specular, TS transmission, V volume.
+        const RayType type = ray_type_of(through.kind, through.lobe, through.subsurface);
+        std::uint8_t& counter = type == RayType::Volume              ? key.volume
+                                : type == RayType::SpecularTransmit  ? key.transmission
+                                : type == RayType::SpecularReflect   ? key.specular
+                                                                     : key.diffuse;
+        ++counter;
+        key.lights_only = key.diffuse > limits_.diffuse || key.specular > limits_.specular || key.transmission > limits_.transmission ||
+                          key.volume > limits_.volume || key.total() > limits_.total;
+        key.ray_type = type_matters_[static_cast<std::size_t>(type)] ? type : RayType::SpecularReflect;
+        return canonical(key);
+    }
+
+  private:
+    /// Moves counts between counters whose limits can no longer bind before the total does, so that equal futures are equal keys.
+    [[nodiscard]] GroupKey canonical(GroupKey key) const {
+        const int total = key.total();
+        if (key.lights_only) {
+            // Only the number of bounces still matters (indirect multipliers, max_bounces), not their kinds.
+            key.specular = key.transmission = key.volume = 0;
+            key.diffuse = static_cast<std::uint8_t>(total);
+            return key;
+        }
+        const int left = limits_.total - total;
+        const auto free = [&](int used, int limit) { return limit - used >= left; };
+        // Counts of free counters are gathered in the first free one: the total stays.
+        int gathered = 0;
+        std::uint8_t* keeper = nullptr;
+        const auto gather = [&](std::uint8_t& used, int limit) {
+            if (!free(used, limit)) return;
+            gathered += used;
+            used = 0;
+            if (keeper == nullptr) keeper = &used;
+        };
+        gather(key.diffuse, limits_.diffuse);
+        gather(key.specular, limits_.specular);
+        gather(key.transmission, limits_.transmission);
+        gather(key.volume, limits_.volume);
+        if (keeper != nullptr) *keeper = static_cast<std::uint8_t>(gathered);
+        return key;
+    }
+
+    DepthLimits limits_;
+    std::array<bool, 8> type_matters_;
+};
+
+struct PathGroup {
+    GroupKey key;
+    Color throughput;
+};
+
+/// True if light through this channel exists for a share that arrived with this key: Arnold's `caustics` switch.
+[[nodiscard]] inline bool channel_allowed(const GroupKey& key, const Channel& channel) {
+    const bool diffuse_ray = key.ray_type == RayType::DiffuseReflect || key.ray_type == RayType::DiffuseTransmit || key.ray_type == RayType::Subsurface;
+    return channel.caustics || channel.record->lobe != EventLobe::Specular || !diffuse_ray;
+}
+
+/// The groups of a path.
+class PathGroups {
+  public:
+    static constexpr std::size_t kMaxGroups = 8;
+    static constexpr std::uint8_t kNone = 255;
+
+    void start(Color throughput) {
+        n_ = 1;
+        groups_[0] = {GroupKey{}, throughput};
+    }
+    [[nodiscard]] std::span<const PathGroup> all() const { return {groups_.data(), n_}; }
+    [[nodiscard]] const PathGroup& operator[](std::size_t i) const { return groups_[i]; }
+    [[nodiscard]] Color total() const {
+        Color sum;
+        for (std::size_t i = 0; i < n_; ++i)
+            sum += groups_[i].throughput;
+        return sum;
+    }
+    void scale(Color factor) {
+        for (std::size_t i = 0; i < n_; ++i)
+            groups_[i].throughput *= factor;
+    }
+    /// Keeps only group `i`, scaled. For masks that see some shares of a ray and not others.
+    void keep_only(std::size_t i, float factor) {
+        groups_[0] = {groups_[i].key, groups_[i].throughput * factor};
+        n_ = 1;
+    }
+
+    /// Where each (group, channel) went: the terms follow the groups through a vertex by this map.
+    struct Step {
+        std::array<std::array<std::uint8_t, kMaxChannels>, kMaxGroups> to;  ///< new group, or kNone
+        std::array<std::array<float, kMaxChannels>, kMaxGroups> scale;      ///< factor of a coin that joined groups
+    };
+
+    /// Moves every group through every channel. factors[c] = f_c / p_mix; black ones are left out.
+    /// random  gives uniform numbers, used only when there are too many groups
+    template <class Random>
+    void scatter(std::span<const Channel> channels, std::span<const Color> factors, const DepthRules& rules, const Random& random, Step& step) {
+        std::array<PathGroup, kMaxCandidates> candidates;
+        std::size_t n = 0;
+        for (std::size_t g = 0; g < n_; ++g)
+            for (std::size_t c = 0; c < channels.size(); ++c) {
+                step.to[g][c] = kNone;
+                step.scale[g][c] = 1;
+                if (groups_[g].key.lights_only || is_black(factors[c]) || !channel_allowed(groups_[g].key, channels[c])) continue;
+                const GroupKey key = rules.next(groups_[g].key, *channels[c].record);
+                std::size_t i = 0;
+                while (i < n && !(candidates[i].key == key))
+                    ++i;
+                if (i == n) candidates[n++] = {key, Color{}};
+                candidates[i].throughput += groups_[g].throughput * factors[c];
+                step.to[g][c] = static_cast<std::uint8_t>(i);
+            }
+        const std::size_t before = n_;
+        if (n <= kMaxGroups) {
+            for (std::size_t i = 0; i < n; ++i)
+                groups_[i] = candidates[i];
+            n_ = n;
+            return;
+        }
+        join(candidates, n, random, before, channels.size(), step);
+    }
+
+  private:
+    /// 8 groups times the 6 different next keys that a group can have.
+    static constexpr std::size_t kMaxCandidates = 48;
+
+    /// Joins the two faintest candidates by a coin weighted with their luminance until they fit.
+    template <class Random>
+    void join(std::array<PathGroup, kMaxCandidates>& candidates, std::size_t n, const Random& random, std::size_t n_old, std::size_t n_channels, Step& step) {
+        std::array<float, kMaxCandidates> factor;
+        factor.fill(1);
+        for (std::size_t alive = n, round = 0; alive > kMaxGroups; --alive, ++round) {
+            std::size_t a = n, b = n;  // faintest and second faintest
+            for (std::size_t i = 0; i < n; ++i) {
+                if (factor[i] == 0) continue;
+                const float y = luminance(candidates[i].throughput) * factor[i];
+                if (a == n || y < luminance(candidates[a].throughput) * factor[a]) {
+                    b = a;
+                    a = i;
+                } else if (b == n || y < luminance(candidates[b].throughput) * factor[b]) {
+                    b = i;
+                }
+            }
+            const float ya = luminance(candidates[a].throughput) * factor[a], yb = luminance(candidates[b].throughput) * factor[b];
+            const float p = ya + yb > 0 ? ya / (ya + yb) : 0.5F;
+            const bool keep_a = random(static_cast<std::uint32_t>(round)) < p;
+            factor[keep_a ? a : b] /= keep_a ? p : 1 - p;
+            factor[keep_a ? b : a] = 0;
+        }
+        std::array<std::uint8_t, kMaxCandidates> slot;
+        n_ = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            slot[i] = kNone;
+            if (factor[i] == 0) continue;
+            slot[i] = static_cast<std::uint8_t>(n_);
+            groups_[n_++] = {candidates[i].key, candidates[i].throughput * factor[i]};
+        }
+        for (std::size_t g = 0; g < n_old; ++g)
+            for (std::size_t c = 0; c < n_channels; ++c) {
+                if (step.to[g][c] == kNone) continue;
+                const std::size_t i = step.to[g][c];
+                step.to[g][c] = slot[i];
+                step.scale[g][c] = factor[i];
+            }
+    }
+
+    std::array<PathGroup, kMaxGroups> groups_;
+    std::size_t n_ = 0;
+};
+
+/// The terms of a path in one automaton (or in the path log's tree of histories).
+///
+/// Machine: using State; State start(); State step(State, const LobeRecord&); bool live(State); static constexpr std::size_t kMaxTerms.
+template <class Machine>
+class PathTerms {
+  public:
+    using State = typename Machine::State;
+    struct Term {
+        std::uint32_t group;
+        State state;
+        Color throughput;
+    };
+
+    void start(const Machine& machine, Color throughput) {
+        terms_.clear();
+        n_reduced_ = 0;
+        if (machine.live(machine.start())) terms_.push_back({0, machine.start(), throughput});
+    }
+    [[nodiscard]] std::span<const Term> all() const { return terms_; }
+    [[nodiscard]] bool empty() const { return terms_.empty(); }
+    void scale(Color factor) {
+        for (Term& t : terms_)
+            t.throughput *= factor;
+    }
+    /// Follows PathGroups::keep_only.
+    void keep_only(std::size_t group, float factor) {
+        std::size_t kept = 0;
+        for (const Term& t : terms_)
+            if (t.group == group) terms_[kept++] = {0, t.state, t.throughput * factor};
+        terms_.resize(kept);
+    }
+
+    /// Follows PathGroups::scatter through the same vertex.
+    template <class Random>
+    void scatter(const Machine& machine, std::span<const Channel> channels, std::span<const Color> factors, const PathGroups::Step& step, const Random& random) {
+        next_.clear();
+        for (const Term& t : terms_)
+            for (std::size_t c = 0; c < channels.size(); ++c) {
+                if (step.to[t.group][c] == PathGroups::kNone) continue;
+                const State state = machine.step(t.state, *channels[c].record);
+                if (!machine.live(state)) continue;
+                add({step.to[t.group][c], state, t.throughput * factors[c] * step.scale[t.group][c]}, random);
+            }
+        std::swap(terms_, next_);
+    }
+
+  private:
+    template <class Random>
+    void add(const Term& term, const Random& random) {
+        for (Term& t : next_)
+            if (t.group == term.group && t.state == term.state) {
+                t.throughput += term.throughput;
+                return;
+            }
+        next_.push_back(term);
+        if (next_.size() > Machine::kMaxTerms) reduce(random);
+    }
+
+    /// Drops one term of a group that has at least four, keeping that group's sum.
+    template <class Random>
+    void reduce(const Random& random) {
+        // Pigeonhole: kMaxTerms >= 3 * kMaxGroups, so some group has four.
+        static_assert(Machine::kMaxTerms >= 3 * PathGroups::kMaxGroups);
+        std::array<std::uint32_t, PathGroups::kMaxGroups> count{};
+        std::uint32_t fullest = 0;
+        for (const Term& t : next_)
+            if (++count[t.group] > count[fullest]) fullest = t.group;
+        std::array<std::size_t, 4> index;
+        std::array<Color, 4> value;
+        std::size_t n = 0;
+        for (std::size_t i = next_.size(); i-- > 0 && n < 4;)
+            if (next_[i].group == fullest) {
+                index[n] = i;
+                value[n++] = next_[i].throughput;
+            }
+        const std::size_t dropped = index[drop_one_of_four(value, random(kReduceStream + n_reduced_++))];
+        for (std::size_t i = 0; i < 4; ++i)
+            next_[index[i]].throughput = value[i];
+        next_[dropped] = next_.back();
+        next_.pop_back();
+    }
+
+    /// Streams of random numbers for reductions, apart from those that join groups.
+    static constexpr std::uint32_t kReduceStream = 1U << 16U;
+
+    std::vector<Term> terms_, next_;  ///< capacity is kept between paths: no allocation after the first few
+    std::uint32_t n_reduced_ = 0;  ///< reductions of this path: each takes a random number of its own
+};
+
+}  // namespace lightsieve

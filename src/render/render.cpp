@@ -1,0 +1,224 @@
+// Buckets over threads, samples over pixels, finished buckets to drivers.
+#include "render/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+#include "core/parallel.h"
+#include "core/version.h"
+#include "render/camera_sample.h"
+#include "render/integrator.h"
+
+namespace lightsieve {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+struct BucketRect {
+    int x, y, width, height;
+};
+
+std::vector<BucketRect> buckets_of(const RenderSettings& s) {
+    std::vector<BucketRect> out;
+    for (int y = s.region.y0; y <= s.region.y1; y += s.bucket_size)
+        for (int x = s.region.x0; x <= s.region.x1; x += s.bucket_size)
+            out.push_back({x, y, std::min(s.bucket_size, s.region.x1 + 1 - x), std::min(s.bucket_size, s.region.y1 + 1 - y)});
+    return out;
+}
+
+/// What one thread needs; made once, used for many buckets.
+struct Worker {
+    explicit Worker(const Scene& scene) : integrator(scene), film(scene.plan) {}
+    Integrator<AovTracker> integrator;
+    Film film;
+    SampleBuffer sample;
+    std::vector<float> weights;
+    std::vector<std::vector<float>> layers;  ///< by layer of the plan
+};
+
+class Renderer {
+  public:
+    Renderer(const Scene& scene, const RenderControl& control, Diagnostics& diagnostics, bool capture, bool write_files)
+        : scene_(scene), control_(control), diagnostics_(diagnostics), capture_(capture), write_files_(write_files) {}
+
+    RenderResult run();
+
+  private:
+    [[nodiscard]] ImageHeader header_of(const PlannedDriver& driver, std::size_t index) const;
+    void open_drivers();
+    void render_bucket(Worker& worker, const BucketRect& rect);
+    bool render_pass(Worker& worker, const Pass& pass, const BucketRect& rect);
+    void deliver(const Worker& worker, const BucketRect& rect);
+    void close_drivers();
+    void report();
+    [[nodiscard]] bool stopped() const { return control_.stop != nullptr && control_.stop->load(std::memory_order_relaxed); }
+    Worker& worker();
+
+    const Scene& scene_;
+    const RenderControl& control_;
+    Diagnostics& diagnostics_;
+    bool capture_, write_files_;
+    RenderResult result_;
+    std::mutex output_mutex_, workers_mutex_;
+    std::vector<std::unique_ptr<Worker>> workers_, idle_;
+    std::uint64_t samples_total_ = 0;
+    Clock::time_point start_;
+};
+
+ImageHeader Renderer::header_of(const PlannedDriver& driver, std::size_t index) const {
+    const RenderSettings& s = scene_.settings;
+    ImageHeader h;
+    h.width = s.width;
+    h.height = s.height;
+    h.data_x = s.region.x0;
+    h.data_y = s.region.y0;
+    h.data_width = s.region.x1 - s.region.x0 + 1;
+    h.data_height = s.region.y1 - s.region.y0 + 1;
+    h.pixel_aspect_ratio = s.pixel_aspect_ratio;
+    h.bucket_size = s.bucket_size;
+    for (const std::uint32_t layer : driver.layers)
+        h.layers.push_back(scene_.plan.layers[layer].info);
+    h.metadata["lightsieve/version"] = std::string(kVersion);
+    h.metadata["lightsieve/samples_per_pixel"] = s.samples;
+    h.metadata["lightsieve/seed"] = static_cast<int>(s.seed);
+    h.metadata["lightsieve/warnings"] = static_cast<int>(diagnostics_.n_warnings());
+    h.metadata["lightsieve/errors"] = static_cast<int>(diagnostics_.n_errors());
+    h.metadata["arnold/GI_diffuse_depth"] = int{s.depth.diffuse};
+    h.metadata["arnold/GI_specular_depth"] = int{s.depth.specular};
+    h.metadata["arnold/GI_transmission_depth"] = int{s.depth.transmission};
+    h.metadata["arnold/GI_total_depth"] = int{s.depth.total};
+    std::string partitions;
+    for (const std::string& proved : proved_partitions(scene_.plan, index))
+        partitions += (partitions.empty() ? "" : "\n") + proved;
+    if (!partitions.empty()) h.metadata["lightsieve/partitions"] = partitions;
+    return h;
+}
+
+void Renderer::open_drivers() {
+    if (!write_files_) return;
+    bool all = true;
+    for (std::size_t i = 0; i < scene_.plan.drivers.size(); ++i) {
+        const PlannedDriver& planned = scene_.plan.drivers[i];
+        all &= planned.driver->open(header_of(planned, i), diagnostics_);
+    }
+    if (!all) diagnostics_.throw_if_errors();
+}
+
+Worker& Renderer::worker() {
+    const std::lock_guard lock(workers_mutex_);
+    if (idle_.empty()) idle_.push_back(std::make_unique<Worker>(scene_));
+    workers_.push_back(std::move(idle_.back()));
+    idle_.pop_back();
+    return *workers_.back();
+}
+
+RenderResult Renderer::run() {
+    open_drivers();
+    const RenderSettings& s = scene_.settings;
+    result_.width = s.region.x1 - s.region.x0 + 1;
+    result_.height = s.region.y1 - s.region.y0 + 1;
+    if (capture_)
+        for (const PlannedLayer& layer : scene_.plan.layers)
+            result_.layers.push_back({layer.info, std::vector<float>(static_cast<std::size_t>(result_.width) * static_cast<std::size_t>(result_.height) * layer.info.n_channels)});
+    samples_total_ = static_cast<std::uint64_t>(result_.width) * static_cast<std::uint64_t>(result_.height) * static_cast<std::uint64_t>(s.samples) * scene_.plan.passes.size();
+    const std::vector<BucketRect> buckets = buckets_of(s);
+    start_ = Clock::now();
+    parallel_for(buckets.size(), s.threads, [&](std::size_t i) {
+        if (stopped()) return;
+        Worker& mine = worker();
+        render_bucket(mine, buckets[i]);
+        const std::lock_guard lock(workers_mutex_);
+        const auto at = std::find_if(workers_.begin(), workers_.end(), [&](const auto& w) { return w.get() == &mine; });
+        idle_.push_back(std::move(*at));
+        workers_.erase(at);
+    });
+    result_.stopped = stopped();
+    result_.seconds = seconds_since(start_) - result_.output_seconds;
+    close_drivers();
+    report();
+    return std::move(result_);
+}
+
+void Renderer::render_bucket(Worker& worker, const BucketRect& rect) {
+    worker.layers.resize(scene_.plan.layers.size());
+    for (std::size_t p = 0; p < scene_.plan.passes.size(); ++p) {
+        if (!render_pass(worker, scene_.plan.passes[p], rect)) return;
+        for (std::size_t l = 0; l < scene_.plan.layers.size(); ++l)
+            if (scene_.plan.layers[l].pass == p) worker.film.resolve(scene_.plan.layers[l], worker.layers[l]);
+    }
+    deliver(worker, rect);
+}
+
+/// False if the render was stopped: the bucket is then not delivered.
+bool Renderer::render_pass(Worker& worker, const Pass& pass, const BucketRect& rect) {
+    const CameraSampler camera(scene_, pass);
+    worker.film.begin(pass, rect.width, rect.height);
+    for (int y = 0; y < rect.height; ++y)
+        for (int x = 0; x < rect.width; ++x) {
+            if (stopped()) return false;
+            for (int i = 0; i < scene_.settings.samples; ++i) {
+                const CameraSample sample = camera.sample(rect.x + x, rect.y + y, static_cast<std::uint32_t>(i));
+                worker.integrator.trace(sample.ray, sample.time, sample.camera_from_world, sample.sampler, worker.sample);
+                camera.weights(sample, worker.weights);
+                worker.film.add(x, y, worker.sample, sample_clamp_factor(scene_, worker.sample.beauty), sample.offset, worker.weights);
+            }
+        }
+    return true;
+}
+
+/// Hands a finished bucket to drivers and memory, one bucket at a time.
+void Renderer::deliver(const Worker& worker, const BucketRect& rect) {
+    const std::lock_guard lock(output_mutex_);
+    const Clock::time_point start = Clock::now();
+    if (write_files_)
+        for (const PlannedDriver& planned : scene_.plan.drivers) {
+            Bucket bucket{rect.x, rect.y, rect.width, rect.height, {}};
+            for (const std::uint32_t layer : planned.layers)
+                bucket.layers.emplace_back(worker.layers[layer]);
+            planned.driver->write(bucket);
+        }
+    for (std::size_t l = 0; l < result_.layers.size(); ++l) {
+        const std::size_t channels = result_.layers[l].info.n_channels, row = static_cast<std::size_t>(rect.width) * channels;
+        for (int y = 0; y < rect.height; ++y) {
+            const std::size_t from = static_cast<std::size_t>(y) * row;
+            const std::size_t to = (static_cast<std::size_t>(rect.y + y - scene_.settings.region.y0) * static_cast<std::size_t>(result_.width) + static_cast<std::size_t>(rect.x - scene_.settings.region.x0)) * channels;
+            std::copy_n(worker.layers[l].begin() + static_cast<std::ptrdiff_t>(from), row, result_.layers[l].pixels.begin() + static_cast<std::ptrdiff_t>(to));
+        }
+    }
+    result_.samples += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height) * static_cast<std::uint64_t>(scene_.settings.samples) * scene_.plan.passes.size();
+    result_.output_seconds += seconds_since(start);
+    if (control_.progress) control_.progress({result_.samples, samples_total_, seconds_since(start_)});
+}
+
+void Renderer::close_drivers() {
+    if (!write_files_) return;
+    const Clock::time_point start = Clock::now();
+    for (const PlannedDriver& planned : scene_.plan.drivers)
+        if (planned.driver->close(diagnostics_)) result_.files.push_back(planned.driver->path());
+    result_.output_seconds += seconds_since(start);
+}
+
+void Renderer::report() {
+    std::uint64_t dropped_closures = 0;
+    for (const auto& w : idle_) {
+        result_.rays += w->integrator.counts.rays;
+        result_.dropped_samples += w->integrator.counts.dropped;
+        dropped_closures += w->integrator.counts.dropped_closures;
+    }
+    if (result_.dropped_samples > 0)
+        diagnostics_.warning(Code::RenderNonFinite, std::to_string(result_.dropped_samples) + " contributions were infinite or not a number and were left out", {}, "look for lights, textures or parameters of extreme size");
+    if (dropped_closures > 0)
+        diagnostics_.warning(Code::RenderNonFinite, std::to_string(dropped_closures) + " lobes did not fit at one hit and were left out", {}, "materials of more than " + std::to_string(ClosureSet::kMaxClosures) + " lobes are not possible");
+    scene_.textures->report_failures(diagnostics_);
+}
+
+}  // namespace
+
+RenderResult render_scene(const Scene& scene, const RenderControl& control, Diagnostics& diagnostics) {
+    return Renderer(scene, control, diagnostics, scene.capture, scene.write_files).run();
+}
+
+}  // namespace lightsieve

@@ -1,0 +1,64 @@
+// Shader networks, ready to run: parameter blocks with their links resolved, and the lobes' records.
+//
+// Evaluating a shader copies its block to the stack, writes the results of linked shaders into the copy, and calls
+// the node's function: node code never asks whether a parameter is connected. A shader without links runs on its own
+// block. No string work, no allocation.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bsdf/closure.h"
+#include "scene/node_type.h"
+#include "scene/shade_point.h"
+
+namespace lightsieve {
+
+/// Parameter blocks above this are refused when the scene is compiled.
+inline constexpr std::size_t kMaxBlockSize = 2048;
+
+class ShaderProgram {
+  public:
+    /// One linked parameter (or component of one).
+    struct Patch {
+        std::size_t offset = 0;      ///< of the parameter in the block
+        ParamType type{};            ///< of the parameter
+        int component = -1;          ///< 0..3, or -1: the whole value
+        const ShaderProgram* source = nullptr;
+        int source_component = -1;   ///< 0..3, or -1: the whole value
+    };
+
+    ShaderProgram(const NodeType& type, const std::byte* block);
+
+    /// Adds a link. The source must be complete before the first evaluation.
+    void add_patch(const Patch& patch) { patches_.push_back(patch); }
+    [[nodiscard]] const std::vector<Patch>& patches() const { return patches_; }
+    [[nodiscard]] const NodeType& type() const { return *type_; }
+    [[nodiscard]] std::byte* block() { return block_.get(); }
+    [[nodiscard]] const std::byte* block() const { return block_.get(); }
+
+    /// Result of a value shader; of a closure shader black.
+    [[nodiscard]] ShaderValue value(const ShadePoint& at) const;
+    /// Adds the shader's closures. A value shader is shown unlit: its colour is emission through lobe 0.
+    void closures(const ShadePoint& at, ClosureSet& out) const;
+
+    /// Lobes with their events; filled when the scene's expressions are compiled.
+    std::vector<LobeRecord> records;
+    /// Whether rays may pass straight through what this shader covers.
+    bool may_be_transparent = false;
+
+  private:
+    struct FreeBlock {
+        void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t{16}); }
+    };
+    /// Copies the block and writes the linked values into the copy.
+    void patch(std::byte* copy, const ShadePoint& at) const;
+
+    const NodeType* type_;
+    std::unique_ptr<std::byte[], FreeBlock> block_;
+    std::vector<Patch> patches_;
+};
+
+}  // namespace lightsieve

@@ -1,0 +1,144 @@
+#include "render/surface.h"
+
+#include <cmath>
+
+namespace lightsieve {
+namespace {
+
+/// Two neighbouring keys and how far the time lies between them.
+struct KeyBlend {
+    std::size_t first = 0, second = 0;
+    float f = 0;
+};
+
+KeyBlend blend_at(std::size_t n_keys, float time) {
+    if (n_keys <= 1) return {};
+    const float x = std::clamp(time, 0.0F, 1.0F) * static_cast<float>(n_keys - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(x), n_keys - 2);
+    return {i, i + 1, x - static_cast<float>(i)};
+}
+
+Vec3f key_value(const std::vector<std::vector<Vec3f>>& keys, const KeyBlend& k, std::size_t i) {
+    if (keys.size() == 1 || k.first == k.second) return keys[0][i];
+    return keys[k.first][i] * (1 - k.f) + keys[k.second][i] * k.f;
+}
+
+/// Placement of an object at a time: matrix and inverse.
+struct Placement {
+    Mat4f world_from_object, object_from_world;
+};
+
+Placement placement_at(const SceneObject& object, float time) {
+    if (object.world_from_object.size() == 1) return {object.world_from_object[0], object.object_from_world[0]};
+    const KeyBlend k = blend_at(object.world_from_object.size(), time);
+    const Mat4f m = lerp(object.world_from_object[k.first], object.world_from_object[k.second], k.f);
+    return {m, m.inverse()};
+}
+
+/// What a primitive says about a point, object space.
+struct LocalPoint {
+    Vec3f position;
+    Vec3f geometric_normal;   ///< not normalised
+    Vec3f normal;             ///< not normalised
+    Vec3f dp_du;              ///< zero if there is no uv
+    Vec2f uv;
+    float uv_per_unit = 0;    ///< uv length per object-space length
+    std::uint32_t face = 0;
+    std::size_t shader = 0;
+};
+
+LocalPoint resolve(const TriangleMesh& mesh, const RayHit& hit, const Mat4f&, const Vec3f&, float time) {
+    const std::size_t t = std::size_t{hit.primitive} * 3;
+    const float b1 = hit.barycentric.x, b2 = hit.barycentric.y, b0 = 1 - b1 - b2;
+    const KeyBlend k = blend_at(mesh.positions.size(), time);
+    const Vec3f p0 = key_value(mesh.positions, k, mesh.indices[t]), p1 = key_value(mesh.positions, k, mesh.indices[t + 1]), p2 = key_value(mesh.positions, k, mesh.indices[t + 2]);
+    LocalPoint out;
+    out.position = p0 * b0 + p1 * b1 + p2 * b2;
+    out.geometric_normal = cross(p1 - p0, p2 - p0);
+    out.normal = out.geometric_normal;
+    if (!mesh.normals.empty()) {
+        const KeyBlend kn = blend_at(mesh.normals.size(), time);
+        const Vec3f n = key_value(mesh.normals, kn, mesh.normal_indices[t]) * b0 + key_value(mesh.normals, kn, mesh.normal_indices[t + 1]) * b1 + key_value(mesh.normals, kn, mesh.normal_indices[t + 2]) * b2;
+        if (length_squared(n) > 0) out.normal = n;
+    }
+    if (!mesh.face.empty()) out.face = mesh.face[hit.primitive];
+    if (!mesh.shader_index.empty()) out.shader = mesh.shader_index[hit.primitive];
+    if (mesh.uvs.empty()) return out;
+    const Vec2f uv0 = mesh.uvs[mesh.uv_indices[t]], uv1 = mesh.uvs[mesh.uv_indices[t + 1]], uv2 = mesh.uvs[mesh.uv_indices[t + 2]];
+    out.uv = uv0 * b0 + uv1 * b1 + uv2 * b2;
+    const Vec2f d1 = uv1 - uv0, d2 = uv2 - uv0;
+    const float det = d1.x * d2.y - d1.y * d2.x;
+    const float twice_area = length(out.geometric_normal);
+    if (det == 0 || !(twice_area > 0)) return out;
+    out.dp_du = ((p1 - p0) * d2.y - (p2 - p0) * d1.y) / det;
+    out.uv_per_unit = std::sqrt(std::abs(det) / twice_area);
+    return out;
+}
+
+LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const Mat4f& object_from_world, const Vec3f& world_point, float time) {
+    const KeyBlend k = blend_at(spheres.centers.size(), time);
+    const Vec3f center = key_value(spheres.centers, k, hit.primitive);
+    const float radius = spheres.radii[hit.primitive];
+    const Vec3f n = normalize(object_from_world.point(world_point) - center);
+    LocalPoint out;
+    out.position = center + n * radius;  // back onto the sphere: t is only as good as a float
+    out.geometric_normal = out.normal = n;
+    out.dp_du = {n.z, 0, -n.x};
+    out.uv = {0.5F + std::atan2(n.x, n.z) * (0.5F * kInvPi), 0.5F + std::asin(std::clamp(n.y, -1.0F, 1.0F)) * kInvPi};
+    out.uv_per_unit = radius > 0 ? 1 / (kPi * radius) : 0;
+    return out;
+}
+
+/// Turns the shading normal so that wo lies on its side: interpolated normals can face away near silhouettes.
+Vec3f facing(Vec3f normal, Vec3f wo) {
+    constexpr float kLeast = 1e-3F;  // cosine kept between the two
+    const float cosine = dot(normal, wo);
+    return cosine >= kLeast ? normal : normalize(normal + wo * (kLeast - cosine), wo);
+}
+
+}  // namespace
+
+Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit, const Footprint& footprint) {
+    const Placement place = placement_at(object, ray.time);
+    const Vec3f along = ray.origin + ray.direction * hit.t;
+    const LocalPoint local = std::visit([&](const auto& g) { return resolve(g, hit, place.object_from_world, along, ray.time); }, object.geometry->data);
+    Surface out;
+    out.object = &object;
+    out.t = hit.t;
+    out.shader = object.shaders[std::min(local.shader, object.shaders.size() - 1)];
+    const Vec3f wo = -ray.direction;
+    const float outside = object.invert_normals ? -1.0F : 1.0F;
+    const Vec3f geometric = normalize(place.object_from_world.normal_by_inverse(local.geometric_normal) * outside);
+    const Vec3f shading = normalize(place.object_from_world.normal_by_inverse(local.normal) * outside, geometric);
+    ShadePoint& at = out.at;
+    at.position = place.world_from_object.point(local.position);
+    at.wo = wo;
+    at.geometric_normal = geometric;
+    at.entering = dot(geometric, wo) >= 0;
+    out.outward = at.entering ? geometric : -geometric;
+    at.normal = facing(dot(shading, out.outward) < 0 ? -shading : shading, wo);
+    const Vec3f tangent = place.world_from_object.vector(local.dp_du);
+    out.frame = Frame::from_z_x(at.normal, tangent);
+    at.tangent = out.frame.x;
+    at.uv = local.uv;
+    at.barycentric = hit.barycentric;
+    const float cosine = std::max(0.1F, std::abs(dot(geometric, wo)));
+    const float scale = length(local.dp_du) > 0 ? length(tangent) / length(local.dp_du) : 1;
+    at.uv_width = local.uv_per_unit * (footprint.width + footprint.spread * hit.t) / (cosine * std::max(scale, 1e-20F));
+    at.face = local.face;
+    at.shape_id = object.id;
+    at.time = ray.time;
+    at.shape = &object;
+    at.direction = ray.direction;
+    return out;
+}
+
+LightHit make_light_hit(const SceneObject& object, const Ray& ray, const RayHit& hit) {
+    const Placement place = placement_at(object, ray.time);
+    const Vec3f along = ray.origin + ray.direction * hit.t;
+    const LocalPoint local = std::visit([&](const auto& g) { return resolve(g, hit, place.object_from_world, along, ray.time); }, object.geometry->data);
+    const Vec3f normal = normalize(place.object_from_world.normal_by_inverse(local.geometric_normal));
+    return {place.world_from_object.point(local.position), normal, local.uv, hit.primitive, hit.t};
+}
+
+}  // namespace lightsieve
