@@ -77,11 +77,10 @@ class B85Reader {
         return true;
     }
 
-    /// A word or a run of `count` words. A run has `repeated` set.
-    PackedError words(std::uint32_t& out, std::uint64_t& count, bool& repeated) {
+    /// A word, or a run of `count` of them.
+    PackedError words(std::uint32_t& out, std::uint64_t& count) {
         count = 1;
-        repeated = peek() == '!';
-        if (!repeated) return word(out);
+        if (peek() != '!') return word(out);
         ++p_;
         std::uint32_t n = 0;
         PackedError error = word(out);
@@ -200,15 +199,13 @@ PackedScan scan_b85(std::string_view text, std::size_t begin, ParamType type, st
     while (n_words < extent.words && scan.error == PackedError::None) {
         std::uint32_t word = 0;
         std::uint64_t count = 0;
-        bool repeated = false;
-        scan.error = reader.words(word, count, repeated);
+        scan.error = reader.words(word, count);
         if (scan.error != PackedError::None) break;
         if (count > extent.words - n_words) {
             scan.error = PackedError::RunTooLong;
             break;
         }
         n_words += count;
-        if (repeated) scan.n_repeated += count;
     }
     if (scan.error == PackedError::None && extent.tail_bytes > 0) {
         std::uint64_t value = 0;
@@ -233,8 +230,7 @@ void decode_b85(std::string_view data, ParamType type, std::span<std::uint32_t> 
     for (std::uint64_t i = 0; i < extent.words;) {
         std::uint32_t word = 0;
         std::uint64_t count = 0;
-        bool repeated = false;
-        if (reader.words(word, count, repeated) != PackedError::None) return;
+        if (reader.words(word, count) != PackedError::None) return;
         i += count;
         if (packing.per_word == 1) {
             std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(at), count, word);

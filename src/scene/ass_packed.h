@@ -35,7 +35,6 @@ struct PackedScan {
     PackedError error = PackedError::None;
     std::size_t end = 0;          ///< offset after the last character of the data, or of the place of the error
     std::uint64_t n_found = 0;    ///< numbers (not elements) that are there; exact for TooShort
-    std::uint64_t n_repeated = 0; ///< words that come from runs, not from text of their own
 };
 
 /// Finds the end of packed data.
