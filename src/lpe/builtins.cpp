@@ -4,6 +4,7 @@
 #include <array>
 
 #include "lpe/cursor.h"
+#include "lpe/lint.h"
 #include "lpe/parse.h"
 
 namespace lightsieve::lpe {
@@ -104,14 +105,15 @@ void ExpressionTable::define(std::string_view definition, const SourceSpan& base
                         "write the AOV's name, a blank, the expression");
     const std::string_view written = definition.substr(name_begin, name_end - name_begin);
     const std::string name = canonical_name(written);
-    const auto known = entries_.find(name);
-    if (known != entries_.end() && known->second.is_custom)
-        return in.error(Code::LpeTwice, "AOV " + in_quotes(written) + " is defined twice",
-                        name_begin, name_end, "keep one of the two, or rename one");
     const std::string_view text = definition.substr(begin);
     // The expression's place is a part of the definition's, if that holds the text byte for byte.
     const SourceSpan where = in.span(begin, definition.size());
     Expr expr = parse(text, where, diagnostics, {.aov_name = written});
+    lint_expression(text, where, written, expr, diagnostics);
+    const auto known = entries_.find(name);
+    if (known != entries_.end() && known->second.is_custom)
+        return in.error(Code::LpeTwice, "AOV " + in_quotes(written) + " is defined twice",
+                        name_begin, name_end, "keep one of the two, or rename one");
     entries_.insert_or_assign(name, Entry{{name, std::string(text), std::move(expr)}, true});
 }
 

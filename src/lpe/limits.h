@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 
@@ -25,6 +26,11 @@ struct OverBudget {
     Code code;            ///< one of the limit-lpe-* codes
     std::string message;  ///< "needs more than 100000 states"
     std::string limit;    ///< the field of `Limits`
+
+    /// As an error about `what` ("the proof"), at a place that may be unknown.
+    [[nodiscard]] Error error(const std::string& what, SourceSpan where) const {
+        return {code, what + " " + message, std::move(where), "the limit is " + limit, {}, Severity::Error};
+    }
 };
 
 }  // namespace lightsieve::lpe

@@ -1,44 +1,22 @@
-// Paths as people write them, and the question whether an expression takes one.
+// Does an expression take a path?
 //
-// A path is events separated by blanks, each as in an expression, with or without the angle brackets:
-// `C RD L`, `C <RS'coat'> TS L'key'`, `C V O'fire'`. Every event must be a single one: `D` is not, `RD` is.
+// For a person's question about one path; a renderer asks a Program.
 #pragma once
 
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "core/diagnostics.h"
 #include "core/event.h"
 #include "lpe/ast.h"
+#include "lpe/limits.h"
+#include "lpe/path.h"
 
 namespace lightsieve::lpe {
-
-/// A light path from the camera: C, scattering events, one terminal event.
-using Path = std::vector<Event>;
-
-/// Reads a path.
-///
-/// base         where the text stands, as for `parse`; unknown: the text itself is quoted
-/// diagnostics  gets what is wrong with it (code `lpe-path`), at the exact column
-/// returns      the path, or nothing if there was an error; L without a group is in group `default`
-[[nodiscard]] std::optional<Path> parse_path(std::string_view text, const SourceSpan& base, Diagnostics& diagnostics);
-[[nodiscard]] std::optional<Path> parse_path(std::string_view text, Diagnostics& diagnostics);
-
-/// The path as `parse_path` reads it: `C RS'coat' L'key'`.
-[[nodiscard]] std::string print_path(std::span<const Event> path);
-/// One event: `RS'coat'`, `L` for a light of group `default`.
-[[nodiscard]] std::string print_event(const Event& event);
-
-/// Is this C, scattering events and exactly one terminal event (a probe only after a scattering event)?
-[[nodiscard]] bool is_path(std::span<const Event> path);
 
 /// Does the expression take the path? Decided by the states of its automaton that the path goes through, made one by
 /// one, so that an expression whose whole automaton is over budget can be asked too.
 ///
-/// throws  InputError (limit) if even this exceeds the budget of derivative steps
-[[nodiscard]] bool match(const Expr& expr, std::span<const Event> path);
+/// path     any events; what is no path (see `is_path`) is taken by no expression
+/// throws   InputError (limit) if even this exceeds a budget
+[[nodiscard]] bool match(const Expr& expr, std::span<const Event> path, const Limits& limits = {});
 
 }  // namespace lightsieve::lpe

@@ -68,6 +68,7 @@ class Automaton {
     /// The state after one more scattering event. Cost: one load. kDead stays kDead.
     [[nodiscard]] State step(State state, ClassId scatter) const noexcept { return table_[state + scatter]; }
     /// The atom of the path that ends now with this terminal event, or kNoAtom. Cost: one load.
+    /// A probe needs a vertex: never ask the start state for one.
     [[nodiscard]] AtomId atom(State state, TerminalId terminal) const noexcept { return table_[state + terminal]; }
     /// Can light (L, O, B) that arrives now or after more scattering still reach an AOV?
     [[nodiscard]] bool live_light(State state) const noexcept { return (table_[state] & kLiveLight) != 0; }

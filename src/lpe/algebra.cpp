@@ -1,0 +1,258 @@
+#include "lpe/algebra.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+
+#include "lpe/alphabet.h"
+#include "lpe/interner.h"
+#include "lpe/term.h"
+
+namespace lightsieve::lpe {
+namespace {
+
+constexpr std::string_view kDefaultGroup = "default";
+/// What no object label may be; the names of light groups are not known here.
+constexpr std::array<std::string_view, 4> kNeverObjectLabels{"coat", "sheen", "hair", kDefaultGroup};
+
+bool may_be_object_label(const std::string& label) {
+    return std::ranges::find(kNeverObjectLabels, label) == kNeverObjectLabels.end();
+}
+
+/// For each label, the tests that name it: labels named by the same tests are alike.
+std::map<std::string, std::vector<std::size_t>> label_uses(std::span<const Expr> exprs) {
+    std::map<std::string, std::vector<std::size_t>> uses;
+    std::size_t n_tests = 0;
+    const auto add = [&](const std::vector<std::string>& labels) {
+        for (const std::string& label : std::set<std::string>(labels.begin(), labels.end()))
+            uses[label].push_back(n_tests);
+        ++n_tests;
+    };
+    const auto collect = [&](const Node& node) {
+        if (const auto* label = std::get_if<Label>(&node.form)) add({label->label});
+        if (const auto* angle = std::get_if<Angle>(&node.form))
+            for (const LabelTest& test : angle->labels) add(test.labels);
+    };
+    for (const Expr& expr : exprs)
+        if (expr) for_each_node(*expr, collect);
+    return uses;
+}
+
+/// One label for each set of labels that are alike, one that may be an object label where there is one.
+std::vector<std::string> distinct_labels(const std::map<std::string, std::vector<std::size_t>>& uses) {
+    std::map<std::vector<std::size_t>, std::string> by_use;
+    for (const auto& [label, use] : uses) {
+        const auto [entry, is_new] = by_use.emplace(use, label);
+        if (!is_new && !may_be_object_label(entry->second) && may_be_object_label(label))
+            entry->second = label;
+    }
+    std::vector<std::string> labels;
+    for (const auto& [use, label] : by_use) labels.push_back(label);
+    std::ranges::sort(labels);
+    return labels;
+}
+
+/// Every set of labels that a lobe on an object can carry.
+std::vector<std::vector<std::string>> label_sets(const std::vector<std::string>& labels) {
+    std::vector<std::vector<std::string>> sets{{}};
+    for (const std::string& label : labels) sets.push_back({label});
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        for (std::size_t j = i + 1; j < labels.size(); ++j)
+            if (may_be_object_label(labels[i]) || may_be_object_label(labels[j]))
+                sets.push_back({labels[i], labels[j]});
+    return sets;
+}
+
+/// A light group that no expression names: `default` unless one does.
+std::string unnamed_group(const std::map<std::string, std::vector<std::size_t>>& uses) {
+    std::string group(kDefaultGroup);
+    for (int i = 1; uses.contains(group); ++i) group = "group" + std::to_string(i);
+    return group;
+}
+
+/// Decides whether a path is what is looked for, from what each expression says and the path's last event.
+using Wanted = std::function<bool(const std::vector<bool>& taken, const Event& last)>;
+
+/// Breadth-first search for a shortest path that the first expression takes and `wanted` accepts, through the product of
+/// the expressions' automata.
+class Search {
+  public:
+    Search(std::span<const Expr> exprs, std::span<const Event> events, const Limits& limits)
+        : alphabet_(exprs, events), limits_(limits), pool_(alphabet_, limits), n_(exprs.size()) {
+        std::vector<TermId> start;
+        for (const Expr& expr : exprs)
+            start.push_back(pool_.derive(pool_.lower(expr), Alphabet::kCamera));
+        start.push_back(kAtCamera);
+        add(start, 0, Alphabet::kCamera);
+    }
+
+    std::optional<Path> run(const Wanted& wanted) {
+        std::vector<TermId> now, next(n_ + 1, kAfterVertex);
+        std::vector<bool> taken(n_);
+        for (std::uint32_t state = 0; state < states_.size(); ++state) {
+            const std::span<const TermId> vector = states_[state];
+            now.assign(vector.begin(), vector.end());
+            for (EventClass c = alphabet_.first_terminal(); c < alphabet_.n_classes(); ++c) {
+                // A probe needs a vertex: C A is no path.
+                if (now[n_] == kAtCamera && !alphabet_.is_light(c)) continue;
+                for (std::size_t i = 0; i < n_; ++i) taken[i] = pool_.accepts(now[i], c);
+                if (taken[0] && wanted(taken, alphabet_.example(c))) return path_to(state, c);
+            }
+            for (EventClass c = Alphabet::kFirstScatter; c < alphabet_.first_terminal(); ++c) {
+                for (std::size_t i = 0; i < n_; ++i) next[i] = pool_.derive(now[i], c);
+                pool_.count_steps(n_);
+                if (next[0] != TermPool::kNothing) add(next, state, c);
+            }
+        }
+        return std::nullopt;
+    }
+
+  private:
+    /// The last word of a state: has the path had a vertex?
+    static constexpr TermId kAtCamera = 0, kAfterVertex = 1;
+
+    struct Arrival {
+        std::uint32_t from;
+        EventClass by;
+    };
+
+    void add(const std::vector<TermId>& vector, std::uint32_t from, EventClass by) {
+        if (states_.intern(vector) < arrivals_.size()) return;
+        arrivals_.push_back({from, by});
+        if (arrivals_.size() > limits_.max_states)
+            throw OverBudget{Code::LimitLpeStates,
+                             "needs more than " + std::to_string(limits_.max_states) + " states",
+                             "max_states"};
+    }
+
+    [[nodiscard]] Path path_to(std::uint32_t state, EventClass last) const {
+        Path path{alphabet_.example(last)};
+        for (; state != 0; state = arrivals_[state].from)
+            path.push_back(alphabet_.example(arrivals_[state].by));
+        path.push_back(Event{});
+        std::ranges::reverse(path);
+        return path;
+    }
+
+    Alphabet alphabet_;
+    const Limits& limits_;
+    TermPool pool_;
+    std::size_t n_;
+    Interner states_;                ///< one term for each expression, and the last word; 0 is the start
+    std::vector<Arrival> arrivals_;  ///< per state: how it was first reached
+};
+
+/// Any path that the first expression takes.
+bool any(const std::vector<bool>&, const Event&) { return true; }
+
+std::optional<Path> search(std::initializer_list<Expr> exprs, const Wanted& wanted,
+                           const Limits& limits) {
+    if (!*exprs.begin()) return std::nullopt;
+    const std::span<const Expr> all(exprs.begin(), exprs.size());
+    try {
+        return Search(all, abstract_events(all, limits), limits).run(wanted);
+    } catch (const OverBudget& over) {
+        throw InputError(over.error("the proof", (*exprs.begin())->where));
+    }
+}
+
+}  // namespace
+
+std::vector<Event> abstract_events(std::span<const Expr> exprs, const Limits& limits) {
+    const std::map<std::string, std::vector<std::size_t>> uses = label_uses(exprs);
+    const std::vector<std::string> labels = distinct_labels(uses);
+    if (labels.size() > limits.max_labels)
+        throw InputError(OverBudget{Code::LimitLpeLabels,
+                                    "would have to tell " + std::to_string(labels.size()) +
+                                        " labels apart",
+                                    "max_labels"}
+                             .error("the proof", {}));
+    std::vector<Event> events;
+    const std::vector<std::vector<std::string>> sets = label_sets(labels);
+    const auto add_all = [&](EventKind kind, EventLobe lobe) {
+        for (const std::vector<std::string>& set : sets) events.push_back({kind, lobe, set});
+    };
+    add_all(EventKind::Reflection, EventLobe::Diffuse);
+    add_all(EventKind::Reflection, EventLobe::Specular);
+    add_all(EventKind::Transmission, EventLobe::Diffuse);
+    add_all(EventKind::Transmission, EventLobe::Specular);
+    add_all(EventKind::Volume, EventLobe::None);
+    events.push_back({EventKind::Light, EventLobe::None, {unnamed_group(uses)}});
+    for (const std::string& label : labels)
+        events.push_back({EventKind::Light, EventLobe::None, {label}});
+    add_all(EventKind::Object, EventLobe::None);
+    events.push_back({EventKind::Background, EventLobe::None, {}});
+    for (const std::string& label : labels)
+        events.push_back({EventKind::Background, EventLobe::None, {label}});
+    events.push_back({EventKind::Albedo, EventLobe::None, {}});
+    return events;
+}
+
+std::optional<Path> shortest_path(const Expr& expr, const Limits& limits) {
+    return search({expr}, any, limits);
+}
+
+std::optional<Path> shortest_path(const Expr& expr, std::span<const Event> events,
+                                  const Limits& limits) {
+    if (!expr) return std::nullopt;
+    try {
+        return Search({&expr, 1}, events, limits).run(any);
+    } catch (const OverBudget& over) {
+        throw InputError(over.error("the proof", expr->where));
+    }
+}
+
+std::optional<Path> shortest_common_path(const Expr& a, const Expr& b, const Limits& limits) {
+    const auto both = [](const std::vector<bool>& taken, const Event&) { return bool{taken[1]}; };
+    return search({a, b}, both, limits);
+}
+
+std::optional<Path> shortest_path_outside(const Expr& a, const Expr& b, const Limits& limits) {
+    const auto not_b = [](const std::vector<bool>& taken, const Event&) { return !taken[1]; };
+    return search({a, b}, not_b, limits);
+}
+
+bool equivalent(const Expr& a, const Expr& b, const Limits& limits) {
+    return !shortest_path_outside(a, b, limits) && !shortest_path_outside(b, a, limits);
+}
+
+bool takes_light(const Expr& expr, const Limits& limits) {
+    const auto is_light = [](const std::vector<bool>&, const Event& last) {
+        return last.kind != EventKind::Albedo;
+    };
+    return search({expr}, is_light, limits).has_value();
+}
+
+bool takes_probe(const Expr& expr, const Limits& limits) {
+    const auto is_probe = [](const std::vector<bool>&, const Event& last) {
+        return last.kind == EventKind::Albedo;
+    };
+    return search({expr}, is_probe, limits).has_value();
+}
+
+PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
+                                const Limits& limits) {
+    PartitionReport report;
+    const auto keep_shortest = [&](PartitionReport::Fault fault, std::optional<Path> witness,
+                                   std::size_t first = 0, std::size_t second = 0) {
+        if (!witness) return;
+        if (report.holds() || witness->size() < report.witness.size())
+            report = {fault, *std::move(witness), first, second};
+    };
+    Alternation all;
+    for (const Expr& part : parts)
+        if (part) all.parts.push_back(part);
+    const Expr sum = std::make_shared<const Node>(Node{std::move(all), {}});
+    keep_shortest(PartitionReport::Fault::Lost, shortest_path_outside(whole, sum, limits));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        for (std::size_t j = i + 1; j < parts.size(); ++j)
+            keep_shortest(PartitionReport::Fault::Twice,
+                          shortest_common_path(parts[i], parts[j], limits), i, j);
+    keep_shortest(PartitionReport::Fault::Outside, shortest_path_outside(sum, whole, limits));
+    return report;
+}
+
+}  // namespace lightsieve::lpe
