@@ -31,8 +31,11 @@ nb::tuple place(const SourceSpan& where) {
 /// A bug has been reported on standard error by whoever raised the signal, or could not be.
 void exit_3(int signal) {
     // A broken assertion (SIGABRT) has said more than this already.
-    constexpr std::string_view kCrash = "lightsieve: bug: the program crashed\nplease report this with the scene or the expression that caused it\n";
-    if (signal != SIGABRT) [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kCrash.data(), kCrash.size());
+    constexpr std::string_view kCrash =
+        "lightsieve: bug: the program crashed\nplease report this with the scene or the "
+        "expression that caused it\n";
+    if (signal != SIGABRT) [[maybe_unused]]
+        const ssize_t written = write(STDERR_FILENO, kCrash.data(), kCrash.size());
     _exit(3);
 }
 
@@ -46,13 +49,15 @@ nb::object to_python(const Error& error) {
         notes.append(errors.attr("Note")(note.message, at[0], at[1], at[2]));
     }
     const nb::tuple at = place(error.where);
-    return errors.attr("Diagnostic")(severity_text(error.severity), code_text(error.code), error.message, error.hint,
-                                     at[0], at[1], at[2], error.render(), nb::tuple(notes));
+    return errors.attr("Diagnostic")(severity_text(error.severity), code_text(error.code),
+                                     error.message, error.hint, at[0], at[1], at[2],
+                                     error.render(), nb::tuple(notes));
 }
 
 nb::tuple to_python(const std::vector<Error>& errors) {
     nb::list out;
-    for (const Error& error : errors) out.append(to_python(error));
+    for (const Error& error : errors)
+        out.append(to_python(error));
     return nb::tuple(out);
 }
 
@@ -61,7 +66,8 @@ void translate_errors() {
         try {
             std::rethrow_exception(thrown);
         } catch (const InputError& input) {
-            const nb::object type = nb::module_::import_("lightsieve.errors").attr("LightsieveError");
+            const nb::object type =
+                nb::module_::import_("lightsieve.errors").attr("LightsieveError");
             PyErr_SetObject(type.ptr(), type(to_python(input.errors())).ptr());
         }
     });
@@ -72,9 +78,11 @@ void add_common(nb::module_& module) {
     module.def(
         "exit_3_on_bug",
         [] {
-            for (int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) std::signal(signal, exit_3);
+            for (int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
+                std::signal(signal, exit_3);
         },
-        "Makes a crash or a broken assertion end the process with exit code 3. For programs, not for libraries.");
+        "Makes a crash or a broken assertion end the process with exit code 3. For programs, not "
+        "for libraries.");
 }
 
 }  // namespace lightsieve::python

@@ -50,14 +50,18 @@ nb::dict attributes(const ExrFile& file) {
 /// All channels of a layer interleaved: shape (height, width, channels), uint32 for UINT.
 nb::object pixels(const ExrFile& file, const ExrLayer& layer) {
     const std::size_t n_channels = layer.channels.size();
-    const std::size_t n_pixels = static_cast<std::size_t>(file.data_width) * static_cast<std::size_t>(file.data_height);
+    const std::size_t n_pixels =
+        static_cast<std::size_t>(file.data_width) * static_cast<std::size_t>(file.data_height);
     auto* owned = new std::vector<float>(n_pixels * n_channels);
-    const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<float>*>(p); });
+    const nb::capsule owner(owned,
+                            [](void* p) noexcept { delete static_cast<std::vector<float>*>(p); });
     for (std::size_t c = 0; c < n_channels; ++c) {
         const std::vector<float>& from = file.channels[layer.channels[c]].pixels;
-        for (std::size_t i = 0; i < n_pixels; ++i) (*owned)[i * n_channels + c] = from[i];
+        for (std::size_t i = 0; i < n_pixels; ++i)
+            (*owned)[i * n_channels + c] = from[i];
     }
-    const std::size_t shape[3] = {static_cast<std::size_t>(file.data_height), static_cast<std::size_t>(file.data_width), n_channels};
+    const std::size_t shape[3] = {static_cast<std::size_t>(file.data_height),
+                                  static_cast<std::size_t>(file.data_width), n_channels};
     nb::object array = nb::cast(nb::ndarray<nb::numpy, float>(owned->data(), 3, shape, owner));
     return layer.type == ExrPixelType::UInt ? array.attr("view")("uint32") : array;
 }
@@ -65,38 +69,60 @@ nb::object pixels(const ExrFile& file, const ExrLayer& layer) {
 void add_info(nb::module_& module) {
     nb::class_<ExrLayer>(module, "ExrLayer", "One layer of an EXR file.")
         .def_ro("name", &ExrLayer::name, "`RGBA` for bare R, G, B, or what the header calls them.")
-        .def_ro("suffixes", &ExrLayer::suffixes, "`R`, `G`, ...; empty text for a channel that is the layer.")
-        .def_prop_ro("type", [](const ExrLayer& l) { return type_text(l.type); }, "`half`, `float` or `uint`.")
-        .def_ro("source", &ExrLayer::source, "The AOV, before renaming; empty if the header does not say.")
+        .def_ro("suffixes", &ExrLayer::suffixes,
+                "`R`, `G`, ...; empty text for a channel that is the layer.")
+        .def_prop_ro(
+            "type", [](const ExrLayer& l) { return type_text(l.type); },
+            "`half`, `float` or `uint`.")
+        .def_ro("source", &ExrLayer::source,
+                "The AOV, before renaming; empty if the header does not say.")
         .def_ro("filter", &ExrLayer::filter, "Empty if the header does not say.")
         .def_ro("filter_width", &ExrLayer::filter_width, "[pixels]")
         .def_ro("expression", &ExrLayer::expression, "Light path expression; empty if none.")
         .def_ro("light_group", &ExrLayer::light_group, "Empty if none.");
     nb::class_<ExrInfo>(module, "ExrInfo", "The header and the layers of an EXR file.")
         .def_ro("layers", &ExrInfo::layers, "The unnamed one first, then by name.")
-        .def_prop_ro("width", [](const ExrInfo& i) { return i.file.width; }, "Of the display window [pixels].")
-        .def_prop_ro("height", [](const ExrInfo& i) { return i.file.height; }, "Of the display window [pixels].")
         .def_prop_ro(
-            "data_window", [](const ExrInfo& i) { return nb::make_tuple(i.file.data_x, i.file.data_y, i.file.data_width, i.file.data_height); },
-            nb::sig("def data_window(self) -> tuple[int, int, int, int]"), "x, y, width and height, relative to the display window.")
-        .def_prop_ro("tiled", [](const ExrInfo& i) { return i.file.tiled; }, "Tiles, not scanlines.")
-        .def_prop_ro("n_parts", [](const ExrInfo& i) { return i.file.n_parts; }, "Parts of the file.")
-        .def_prop_ro("n_channels", [](const ExrInfo& i) { return i.file.channels.size(); }, "Channels of all parts.")
-        .def_prop_ro("compression", [](const ExrInfo& i) { return compression_text(i.file.compression); }, "As in driver_exr.compression.")
+            "width", [](const ExrInfo& i) { return i.file.width; },
+            "Of the display window [pixels].")
+        .def_prop_ro(
+            "height", [](const ExrInfo& i) { return i.file.height; },
+            "Of the display window [pixels].")
+        .def_prop_ro(
+            "data_window",
+            [](const ExrInfo& i) {
+                return nb::make_tuple(i.file.data_x, i.file.data_y, i.file.data_width,
+                                      i.file.data_height);
+            },
+            nb::sig("def data_window(self) -> tuple[int, int, int, int]"),
+            "x, y, width and height, relative to the display window.")
+        .def_prop_ro(
+            "tiled", [](const ExrInfo& i) { return i.file.tiled; }, "Tiles, not scanlines.")
+        .def_prop_ro(
+            "n_parts", [](const ExrInfo& i) { return i.file.n_parts; }, "Parts of the file.")
+        .def_prop_ro(
+            "n_channels", [](const ExrInfo& i) { return i.file.channels.size(); },
+            "Channels of all parts.")
+        .def_prop_ro(
+            "compression", [](const ExrInfo& i) { return compression_text(i.file.compression); },
+            "As in driver_exr.compression.")
         .def_prop_ro(
             "attributes", [](const ExrInfo& i) { return attributes(i.file); },
-            nb::sig("def attributes(self) -> dict[str, int | float | str | list[float]]"), "Header attributes of the first part.");
+            nb::sig("def attributes(self) -> dict[str, int | float | str | list[float]]"),
+            "Header attributes of the first part.");
     module.def("exr_info", &exr_info, "path"_a, "Reads a header.");
     module.def(
         "exr_read",
         [](const std::string& path) {
             const ExrFile file = read_exr(path);
             nb::list out;
-            for (const ExrLayer& layer : exr_layers(file)) out.append(nb::make_tuple(layer, pixels(file, layer)));
+            for (const ExrLayer& layer : exr_layers(file))
+                out.append(nb::make_tuple(layer, pixels(file, layer)));
             return out;
         },
         "path"_a, nb::sig("def exr_read(path: str) -> list[tuple[ExrLayer, numpy.ndarray]]"),
-        "Each layer with its pixels over the data window: shape (height, width, channels), row 0 at the top.");
+        "Each layer with its pixels over the data window: shape (height, width, channels), row 0 "
+        "at the top.");
 }
 
 void add_verify(nb::module_& module) {
@@ -105,8 +131,10 @@ void add_verify(nb::module_& module) {
         .def_ro("checked", &ExrSumCheck::checked, "False if it could not be: see `reason`.")
         .def_ro("passed", &ExrSumCheck::passed, "No pixel is above its tolerance.")
         .def_ro("reason", &ExrSumCheck::reason, "Why it could not be checked.")
-        .def_ro("worst_x", &ExrSumCheck::worst_x, "Pixel with the largest residual for its tolerance.")
-        .def_ro("worst_y", &ExrSumCheck::worst_y, "Pixel with the largest residual for its tolerance.")
+        .def_ro("worst_x", &ExrSumCheck::worst_x,
+                "Pixel with the largest residual for its tolerance.")
+        .def_ro("worst_y", &ExrSumCheck::worst_y,
+                "Pixel with the largest residual for its tolerance.")
         .def_ro("worst_channel", &ExrSumCheck::worst_channel, "`R`, `G` or `B`.")
         .def_ro("whole", &ExrSumCheck::whole, "The left side, there.")
         .def_ro("sum", &ExrSumCheck::sum, "The right side, there.")
@@ -115,8 +143,10 @@ void add_verify(nb::module_& module) {
         .def_ro("n_failed", &ExrSumCheck::n_failed, "Pixels above their tolerance.");
     nb::class_<ExrVerifyResult>(module, "ExrVerifyResult", "What `exr verify` found.")
         .def_ro("checks", &ExrVerifyResult::checks, "One a sum.")
-        .def_prop_ro("passed", &ExrVerifyResult::passed, "Something was checked, and all of it passed.");
-    module.def("exr_verify", &exr_verify, "path"_a, nb::call_guard<nb::gil_scoped_release>(), "Re-checks the sums that the header names.");
+        .def_prop_ro("passed", &ExrVerifyResult::passed,
+                     "Something was checked, and all of it passed.");
+    module.def("exr_verify", &exr_verify, "path"_a, nb::call_guard<nb::gil_scoped_release>(),
+               "Re-checks the sums that the header names.");
 }
 
 void add_diff(nb::module_& module) {
@@ -124,7 +154,8 @@ void add_diff(nb::module_& module) {
         .def_ro("name", &ExrLayerDiff::name, "The layer.")
         .def_ro("n_values", &ExrLayerDiff::n_values, "Compared: pixels times channels.")
         .def_ro("n_different", &ExrLayerDiff::n_different, "Not the same value.")
-        .def_ro("n_nonfinite", &ExrLayerDiff::n_nonfinite, "NaN or infinite in either file, left out of the figures.")
+        .def_ro("n_nonfinite", &ExrLayerDiff::n_nonfinite,
+                "NaN or infinite in either file, left out of the figures.")
         .def_ro("rmse", &ExrLayerDiff::rmse, "Root of the mean squared difference.")
         .def_ro("relative_mse", &ExrLayerDiff::relative_mse, "Mean of (a-b)^2 / (b^2 + 0.01).")
         .def_ro("max_difference", &ExrLayerDiff::max_difference, "Largest difference.")
@@ -134,7 +165,8 @@ void add_diff(nb::module_& module) {
         .def_ro("layers", &ExrDiffResult::layers, "Those that both have.")
         .def_ro("only_a", &ExrDiffResult::only_a, "Names of layers.")
         .def_ro("only_b", &ExrDiffResult::only_b, "Names of layers.");
-    module.def("exr_diff", &exr_diff, "a"_a, "b"_a, "picture"_a = "", "layer"_a = "", nb::call_guard<nb::gil_scoped_release>(),
+    module.def("exr_diff", &exr_diff, "a"_a, "b"_a, "picture"_a = "", "layer"_a = "",
+               nb::call_guard<nb::gil_scoped_release>(),
                "Compares a with the reference b; `picture` gets the absolute difference.");
 }
 

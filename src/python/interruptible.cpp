@@ -14,7 +14,8 @@ namespace {
 constexpr std::chrono::milliseconds kPollInterval{100};
 }  // namespace
 
-void run_interruptible(const std::function<void()>& work, std::atomic<bool>& stop, const std::function<void()>& poll) {
+void run_interruptible(const std::function<void()>& work, std::atomic<bool>& stop,
+                       const std::function<void()>& poll) {
     std::future<void> done = std::async(std::launch::async, work);
     std::exception_ptr raised;
     const auto look = [&] {

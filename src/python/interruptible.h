@@ -16,6 +16,7 @@ namespace lightsieve::python {
 /// stop    set when a signal handler or `poll` raises; the first such exception is thrown when the work has ended
 /// poll    called with the GIL held about ten times a second and once at the end; may be empty
 /// throws  what `work` threw, else what the handler or `poll` raised
-void run_interruptible(const std::function<void()>& work, std::atomic<bool>& stop, const std::function<void()>& poll);
+void run_interruptible(const std::function<void()>& work, std::atomic<bool>& stop,
+                       const std::function<void()>& poll);
 
 }  // namespace lightsieve::python

@@ -19,8 +19,8 @@ namespace {
 
 /// An expression that was read without an error.
 struct Expression {
-    std::string text;         ///< as it was written
-    lpe::Expr tree;           ///< never null
+    std::string text;  ///< as it was written
+    lpe::Expr tree;    ///< never null
     std::vector<Error> lints;
 };
 
@@ -47,28 +47,42 @@ lpe::Path parse_path(const std::string& text) {
 }  // namespace
 
 void add_lpe(nb::module_& module) {
-    nb::class_<Expression>(module, "Expression", "A light path expression that was read without an error.")
+    nb::class_<Expression>(module, "Expression",
+                           "A light path expression that was read without an error.")
         .def_ro("text", &Expression::text, "The expression as it was written.")
         .def_prop_ro(
             "lints", [](const Expression& e) { return to_python(e.lints); },
-            nb::sig("def lints(self) -> tuple[lightsieve.errors.Diagnostic, ...]"), "What is legal in it but probably not meant.")
-        .def("__repr__", [](const Expression& e) { return "lightsieve.lpe.parse(" + nb::cast<std::string>(nb::repr(nb::cast(e.text))) + ")"; });
-    module.def("parse", &parse, nb::arg("text"), "Reads an expression; raises LightsieveError with every error in it.");
+            nb::sig("def lints(self) -> tuple[lightsieve.errors.Diagnostic, ...]"),
+            "What is legal in it but probably not meant.")
+        .def("__repr__", [](const Expression& e) {
+            return "lightsieve.lpe.parse(" + nb::cast<std::string>(nb::repr(nb::cast(e.text))) +
+                   ")";
+        });
+    module.def("parse", &parse, nb::arg("text"),
+               "Reads an expression; raises LightsieveError with every error in it.");
 
     module.def(
-        "match", [](const Expression& e, const std::string& path) { return lpe::match(e.tree, parse_path(path)); },
+        "match",
+        [](const Expression& e, const std::string& path) {
+            return lpe::match(e.tree, parse_path(path));
+        },
         nb::arg("expression"), nb::arg("path"), "Does the expression take the path?");
     module.def(
-        "print_path", [](const std::string& path) { return lpe::print_path(parse_path(path)); }, nb::arg("path"),
-        "The path in its normal spelling.");
+        "print_path", [](const std::string& path) { return lpe::print_path(parse_path(path)); },
+        nb::arg("path"), "The path in its normal spelling.");
 
     nb::class_<lpe::Builtin>(module, "Builtin", "A built-in AOV.")
         .def_ro("name", &lpe::Builtin::name, "Its name in `options.outputs`.")
         .def_ro("meaning", &lpe::Builtin::meaning, "One line for people.")
-        .def_ro("part", &lpe::Builtin::part, "The part of the beauty that it belongs to; empty for sums of parts.")
+        .def_ro("part", &lpe::Builtin::part,
+                "The part of the beauty that it belongs to; empty for sums of parts.")
         .def(
-            "expression", [](const lpe::Builtin& b, std::string_view table) { return b.expression_in(table_named(table)); },
-            nb::arg("table") = "reference", "Its expression in the table `reference` or `arnold7`.");
+            "expression",
+            [](const lpe::Builtin& b, std::string_view table) {
+                return b.expression_in(table_named(table));
+            },
+            nb::arg("table") = "reference",
+            "Its expression in the table `reference` or `arnold7`.");
     module.def(
         "builtins",
         [] {
@@ -84,7 +98,8 @@ void add_lpe(nb::module_& module) {
         },
         nb::arg("name"), "The built-in AOV of that name, or None.");
     module.def(
-        "additive_sets", [](std::string_view table) { return lpe::additive_sets(table_named(table)); },
+        "additive_sets",
+        [](std::string_view table) { return lpe::additive_sets(table_named(table)); },
         nb::arg("table") = "reference", "The sets of built-ins that add up to the beauty.");
 }
 

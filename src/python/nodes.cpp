@@ -28,7 +28,8 @@ T read(const std::byte* at) {
 
 nb::object matrix(const Mat4f& m) {
     nb::list rows;
-    for (const auto& row : m.m) rows.append(nb::make_tuple(row[0], row[1], row[2], row[3]));
+    for (const auto& row : m.m)
+        rows.append(nb::make_tuple(row[0], row[1], row[2], row[3]));
     return nb::tuple(rows);
 }
 
@@ -56,7 +57,9 @@ nb::object value_at(const ParamInfo& param, const std::byte* at) {
             return nb::make_tuple(v.x, v.y);
         }
         case ParamType::String: return nb::cast(read<Name>(at).view());
-        case ParamType::Enum: return nb::cast(param.enumerators.at(static_cast<std::size_t>(read<std::int32_t>(at))));
+        case ParamType::Enum:
+            return nb::cast(
+                param.enumerators.at(static_cast<std::size_t>(read<std::int32_t>(at))));
         case ParamType::Matrix: return matrix(read<Mat4f>(at));
         case ParamType::Node:
         case ParamType::Closure: break;
@@ -70,7 +73,8 @@ nb::object default_of(const NodeType& type, const ParamInfo& param) {
     // All Array<T> have one layout; the element type only steps through the data.
     const auto array = read<Array<std::byte>>(at);
     nb::list out;
-    for (std::size_t i = 0; i < array.n; ++i) out.append(value_at(param, array.data + i * type_size(param.type)));
+    for (std::size_t i = 0; i < array.n; ++i)
+        out.append(value_at(param, array.data + i * type_size(param.type)));
     return out;
 }
 
@@ -114,8 +118,10 @@ nb::dict describe(const LobeInfo& lobe) {
 
 nb::dict describe(const NodeType& type) {
     nb::list params, lobes;
-    for (const ParamInfo& param : type.params) params.append(describe(type, param));
-    for (const LobeInfo& lobe : type.lobes) lobes.append(describe(lobe));
+    for (const ParamInfo& param : type.params)
+        params.append(describe(type, param));
+    for (const LobeInfo& lobe : type.lobes)
+        lobes.append(describe(lobe));
     nb::dict out;
     out["name"] = type.name.view();
     out["kind"] = kind_text(type.kind);
@@ -135,10 +141,12 @@ void add_nodes(nb::module_& module) {
             Registry registry;
             add_all_nodes(registry);
             nb::list out;
-            for (const NodeType* type : registry.all()) out.append(describe(*type));
+            for (const NodeType* type : registry.all())
+                out.append(describe(*type));
             return out;
         },
-        nb::sig("def nodes() -> list[dict[str, typing.Any]]"), "Every node type with its parameters and lobes, by name.");
+        nb::sig("def nodes() -> list[dict[str, typing.Any]]"),
+        "Every node type with its parameters and lobes, by name.");
 }
 
 }  // namespace lightsieve::python

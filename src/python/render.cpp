@@ -37,10 +37,12 @@ const Registry& registry() {
 /// A scene from file to compiled form, with everything that was found wrong on the way.
 class CompiledScene {
   public:
-    CompiledScene(const std::string& path, RenderOptions options, bool strict, const std::vector<std::string>& assignments)
+    CompiledScene(const std::string& path, RenderOptions options, bool strict,
+                  const std::vector<std::string>& assignments)
         : options_(std::move(options)) {
         options_.scene_path = path;
-        std::atomic<bool> stop = false;  // reading and compiling cannot be ended early: Ctrl-C is raised when they are done
+        std::atomic<bool> stop =
+            false;  // reading and compiling cannot be ended early: Ctrl-C is raised when they are done
         run_interruptible([&] { compile(path, strict, assignments); }, stop, {});
     }
 
@@ -55,13 +57,16 @@ class CompiledScene {
     nb::object render(const nb::object& progress);
 
   private:
-    void compile(const std::string& path, bool strict, const std::vector<std::string>& assignments) {
+    void compile(const std::string& path, bool strict,
+                 const std::vector<std::string>& assignments) {
         const Document document = read_ass_file(path, diagnostics_);
         if (document.nodes().empty() && diagnostics_.has_errors()) return;
         BuildOptions build;
         if (strict) build.unknown = UnknownPolicy::Error;
-        graph_ = std::make_unique<SceneGraph>(build_graph(document, registry(), build, diagnostics_));
-        for (const std::string& assignment : assignments) graph_->assign(assignment, diagnostics_);
+        graph_ =
+            std::make_unique<SceneGraph>(build_graph(document, registry(), build, diagnostics_));
+        for (const std::string& assignment : assignments)
+            graph_->assign(assignment, diagnostics_);
         scene_ = compile_scene(*graph_, options_, diagnostics_);
     }
     [[nodiscard]] const Scene& scene() const {
@@ -78,8 +83,10 @@ class CompiledScene {
 /// A layer's pixels as an array that owns them: float32, or uint32 for UINT layers.
 nb::object pixels(FrameLayer&& layer, int width, int height) {
     auto* owned = new std::vector<float>(std::move(layer.pixels));
-    const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<float>*>(p); });
-    const std::size_t shape[3] = {static_cast<std::size_t>(height), static_cast<std::size_t>(width), layer.info.n_channels};
+    const nb::capsule owner(owned,
+                            [](void* p) noexcept { delete static_cast<std::vector<float>*>(p); });
+    const std::size_t shape[3] = {static_cast<std::size_t>(height),
+                                  static_cast<std::size_t>(width), layer.info.n_channels};
     nb::object array = nb::cast(nb::ndarray<nb::numpy, float>(owned->data(), 3, shape, owner));
     const bool is_uint = layer.info.aov_type == "UINT" || layer.info.aov_type == "INT";
     return is_uint ? array.attr("view")("uint32") : array;
@@ -113,23 +120,28 @@ nb::object CompiledScene::render(const nb::object& progress) {
     };
     Outcome outcome;
     try {
-        run_interruptible([&] { outcome.result = render_scene(scene(), control, diagnostics_); }, stop, poll);
+        run_interruptible([&] { outcome.result = render_scene(scene(), control, diagnostics_); },
+                          stop, poll);
     } catch (nb::python_error& error) {
         if (!error.matches(PyExc_KeyboardInterrupt)) throw;
         outcome.interrupted = true;
     }
     for (FrameLayer& layer : outcome.result.layers) {
         nb::object info = nb::cast(layer.info);
-        outcome.layers.append(nb::make_tuple(info, pixels(std::move(layer), outcome.result.width, outcome.result.height)));
+        outcome.layers.append(nb::make_tuple(
+            info, pixels(std::move(layer), outcome.result.width, outcome.result.height)));
     }
     outcome.result.layers.clear();
     return nb::cast(std::move(outcome));
 }
 
 void add_options(nb::module_& module) {
-    nb::class_<RenderOptions>(module, "RenderOptions", "What a caller may say beyond the scene; empty or 0: as the scene says.")
+    nb::class_<RenderOptions>(
+        module, "RenderOptions",
+        "What a caller may say beyond the scene; empty or 0: as the scene says.")
         .def(nb::init<>())
-        .def_rw("output", &RenderOptions::output, "A folder for the drivers' relative names, or the first driver's file.")
+        .def_rw("output", &RenderOptions::output,
+                "A folder for the drivers' relative names, or the first driver's file.")
         .def_rw("aa_samples", &RenderOptions::aa_samples, "AA_samples: n * n samples a pixel.")
         .def_rw("spp", &RenderOptions::spp, "Samples a pixel, wins over aa_samples.")
         .def_rw("width", &RenderOptions::width, "Of the frame [pixels].")
@@ -138,15 +150,22 @@ void add_options(nb::module_& module) {
         .def_rw("seed", &RenderOptions::seed, "Of the samples; None: as the scene says.")
         .def_rw("camera", &RenderOptions::camera, "Name of a camera node.")
         .def_rw("aovs", &RenderOptions::aovs, "`NAME TYPE`: outputs added to the first driver.")
-        .def_rw("lpes", &RenderOptions::lpes, "`NAME EXPRESSION`: expressions defined and output as RGB.")
-        .def_rw("lpe_standard", &RenderOptions::lpe_standard, "Extensions of the language are errors.")
+        .def_rw("lpes", &RenderOptions::lpes,
+                "`NAME EXPRESSION`: expressions defined and output as RGB.")
+        .def_rw("lpe_standard", &RenderOptions::lpe_standard,
+                "Extensions of the language are errors.")
         .def_rw("lpe_table", &RenderOptions::lpe_table, "Empty, `reference` or `arnold7`.")
-        .def_rw("isa", &RenderOptions::isa, "Empty, `sse2`, `avx2` or `avx512`: pins the ray kernels.")
+        .def_rw("isa", &RenderOptions::isa,
+                "Empty, `sse2`, `avx2` or `avx512`: pins the ray kernels.")
         .def_rw("capture", &RenderOptions::capture, "Keep the layers in memory.")
         .def_rw("write_files", &RenderOptions::write_files, "Hand the pixels to the drivers.")
         .def(
-            "set_region", [](RenderOptions& o, int x0, int y0, int x1, int y1) { o.region = Region{x0, y0, x1, y1}; },
-            "x0"_a, "y0"_a, "x1"_a, "y1"_a, "Pixels x0..x1, y0..y1, both ends included, from the upper left corner.");
+            "set_region",
+            [](RenderOptions& o, int x0, int y0, int x1, int y1) {
+                o.region = Region{x0, y0, x1, y1};
+            },
+            "x0"_a, "y0"_a, "x1"_a, "y1"_a,
+            "Pixels x0..x1, y0..y1, both ends included, from the upper left corner.");
 }
 
 void add_results(nb::module_& module) {
@@ -161,10 +180,13 @@ void add_results(nb::module_& module) {
         .def_ro("half", &ImageLayer::half, "HALF was asked for this output.")
         .def_ro("n_channels", &ImageLayer::n_channels, "1 to 4.");
 
-    nb::class_<SceneSummary>(module, "SceneSummary", "What a compiled scene holds and what a render of it would write.")
+    nb::class_<SceneSummary>(module, "SceneSummary",
+                             "What a compiled scene holds and what a render of it would write.")
         .def_ro("n_shapes", &SceneSummary::n_shapes, "Shapes.")
-        .def_ro("n_instances", &SceneSummary::n_instances, "Shapes as placed, copies by instancers included.")
-        .def_ro("n_triangles", &SceneSummary::n_triangles, "Triangles of all meshes, each mesh once.")
+        .def_ro("n_instances", &SceneSummary::n_instances,
+                "Shapes as placed, copies by instancers included.")
+        .def_ro("n_triangles", &SceneSummary::n_triangles,
+                "Triangles of all meshes, each mesh once.")
         .def_ro("n_spheres", &SceneSummary::n_spheres, "Spheres.")
         .def_ro("n_lights", &SceneSummary::n_lights, "Lights.")
         .def_ro("n_shaders", &SceneSummary::n_shaders, "Shaders.")
@@ -178,28 +200,46 @@ void add_results(nb::module_& module) {
         .def_ro("files", &SceneSummary::files, "What a render would write.")
         .def_ro("layers", &SceneSummary::layers, "All layers of all files.")
         .def_ro("layer_file", &SceneSummary::layer_file, "Index into `files` of each layer.")
-        .def_ro("partitions", &SceneSummary::partitions, "Sums that were proved for the layers of one file.");
+        .def_ro("partitions", &SceneSummary::partitions,
+                "Sums that were proved for the layers of one file.");
 
     nb::class_<RenderProgress>(module, "RenderProgress", "How far a render is.")
         .def_ro("samples_done", &RenderProgress::samples_done, "Camera samples taken.")
-        .def_ro("samples_total", &RenderProgress::samples_total, "Camera samples in all; 0 before the first bucket.")
+        .def_ro("samples_total", &RenderProgress::samples_total,
+                "Camera samples in all; 0 before the first bucket.")
         .def_ro("seconds", &RenderProgress::seconds, "Since the first ray.");
 
     nb::class_<Outcome>(module, "Outcome", "What a render gave.")
-        .def_prop_ro("stopped", [](const Outcome& o) { return o.result.stopped; }, "Ended early: what was done is in the files.")
+        .def_prop_ro(
+            "stopped", [](const Outcome& o) { return o.result.stopped; },
+            "Ended early: what was done is in the files.")
         .def_ro("interrupted", &Outcome::interrupted, "By Ctrl-C.")
-        .def_prop_ro("seconds", [](const Outcome& o) { return o.result.seconds; }, "Sampling, without compile and files.")
-        .def_prop_ro("output_seconds", [](const Outcome& o) { return o.result.output_seconds; }, "Spent in drivers.")
-        .def_prop_ro("samples", [](const Outcome& o) { return o.result.samples; }, "Camera samples taken.")
-        .def_prop_ro("rays", [](const Outcome& o) { return o.result.rays; }, "Closest-hit and shadow rays.")
-        .def_prop_ro("dropped_samples", [](const Outcome& o) { return o.result.dropped_samples; }, "Contributions that were not finite.")
-        .def_prop_ro("files", [](const Outcome& o) { return o.result.files; }, "Written.")
-        .def_prop_ro("width", [](const Outcome& o) { return o.result.width; }, "Of the rendered region [pixels].")
-        .def_prop_ro("height", [](const Outcome& o) { return o.result.height; }, "Of the rendered region [pixels].")
+        .def_prop_ro(
+            "seconds", [](const Outcome& o) { return o.result.seconds; },
+            "Sampling, without compile and files.")
+        .def_prop_ro(
+            "output_seconds", [](const Outcome& o) { return o.result.output_seconds; },
+            "Spent in drivers.")
+        .def_prop_ro(
+            "samples", [](const Outcome& o) { return o.result.samples; }, "Camera samples taken.")
+        .def_prop_ro(
+            "rays", [](const Outcome& o) { return o.result.rays; }, "Closest-hit and shadow rays.")
+        .def_prop_ro(
+            "dropped_samples", [](const Outcome& o) { return o.result.dropped_samples; },
+            "Contributions that were not finite.")
+        .def_prop_ro(
+            "files", [](const Outcome& o) { return o.result.files; }, "Written.")
+        .def_prop_ro(
+            "width", [](const Outcome& o) { return o.result.width; },
+            "Of the rendered region [pixels].")
+        .def_prop_ro(
+            "height", [](const Outcome& o) { return o.result.height; },
+            "Of the rendered region [pixels].")
         .def_prop_ro(
             "layers", [](const Outcome& o) { return o.layers; },
             nb::sig("def layers(self) -> list[tuple[ImageLayer, numpy.ndarray]]"),
-            "If they were captured: each layer with its pixels, shape (height, width, channels), row 0 at the top.");
+            "If they were captured: each layer with its pixels, shape (height, width, channels), "
+            "row 0 at the top.");
 }
 
 }  // namespace
@@ -207,11 +247,15 @@ void add_results(nb::module_& module) {
 void add_render(nb::module_& module) {
     add_options(module);
     add_results(module);
-    nb::class_<CompiledScene>(module, "CompiledScene", "A scene, read and compiled, ready to render.")
-        .def(nb::init<const std::string&, RenderOptions, bool, const std::vector<std::string>&>(), "path"_a, "options"_a,
-             "strict"_a = false, "assignments"_a = std::vector<std::string>{},
-             "Reads and compiles; never raises for bad input: `diagnostics` has it, `usable` tells.")
-        .def_prop_ro("usable", &CompiledScene::usable, "False if there were errors that forbid rendering.")
+    nb::class_<CompiledScene>(module, "CompiledScene",
+                              "A scene, read and compiled, ready to render.")
+        .def(nb::init<const std::string&, RenderOptions, bool, const std::vector<std::string>&>(),
+             "path"_a, "options"_a, "strict"_a = false,
+             "assignments"_a = std::vector<std::string>{},
+             "Reads and compiles; never raises for bad input: `diagnostics` has it, `usable` "
+             "tells.")
+        .def_prop_ro("usable", &CompiledScene::usable,
+                     "False if there were errors that forbid rendering.")
         .def_prop_ro("diagnostics", &CompiledScene::diagnostics,
                      nb::sig("def diagnostics(self) -> tuple[lightsieve.errors.Diagnostic, ...]"),
                      "Everything kept so far, also of rendering.")
@@ -220,7 +264,8 @@ void add_render(nb::module_& module) {
         .def_prop_ro("n_lints", &CompiledScene::n_lints, "Lints, also those not kept.")
         .def("summary", &CompiledScene::summary, "What the scene holds; only if it is usable.")
         .def("render", &CompiledScene::render, "progress"_a = nb::none(),
-             nb::sig("def render(self, progress: collections.abc.Callable[[RenderProgress], object] | None = None) -> Outcome"),
+             nb::sig("def render(self, progress: collections.abc.Callable[[RenderProgress], "
+                     "object] | None = None) -> Outcome"),
              "Renders; Ctrl-C ends it early. `progress` is called about ten times a second.");
 }
 

@@ -98,7 +98,11 @@ def command(
     assignments: _scene_options.Assignments = None,
     json: _output.Json = False,
 ) -> None:
-    """Read and compile a scene, render nothing; report every error and lint with its place."""
+    """Report every error and lint of a scene.
+
+    Reads and compiles everything, renders nothing; then says what the scene holds, what a render
+    would write, and which sums of its AOVs were proved.
+    """
     compiled = _scene_options.compile_scene(
         scene,
         write_files=True,

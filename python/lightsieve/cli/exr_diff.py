@@ -43,7 +43,10 @@ def command(
     ] = None,
     json: _output.Json = False,
 ) -> None:
-    """Compare two files layer by layer: RMSE, relative MSE, largest difference."""
+    """Compare two files layer by layer.
+
+    Prints RMSE, relative MSE and the largest difference of each layer that both have.
+    """
     from lightsieve import exr
 
     result = exr.diff(a, b, picture, layer)

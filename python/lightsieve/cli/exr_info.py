@@ -20,7 +20,10 @@ def command(
     ] = False,
     json: _output.Json = False,
 ) -> None:
-    """Show a file's layers: pixel type, channels, expression, light group, filter."""
+    """Show a file's layers.
+
+    For each its channels, pixel type, filter, expression and light group.
+    """
     from lightsieve import exr
 
     info = exr.info(file)

@@ -16,7 +16,11 @@ def command(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="A file that Lightsieve wrote.")],
     json: _output.Json = False,
 ) -> None:
-    """Re-check from the pixels that a file's AOVs add up; exit 1 if they do not."""
+    """Re-check that a file's AOVs add up.
+
+    From the pixels, for the sums that the renderer proved and named in the header; prints the
+    largest residual of each. Exit code 1 if one does not add up or there is nothing to check.
+    """
     from lightsieve import exr
 
     result = exr.verify(file)

@@ -19,7 +19,7 @@ def command(
     ] = "reference",
     json: _output.Json = False,
 ) -> None:
-    """List the built-in AOVs: name, expression, one line of meaning."""
+    """List the built-in AOVs and their expressions."""
     rows = lpe.builtins(lpe_table)
     if json:
         _output.print_json({"table": lpe_table, "aovs": [row._asdict() for row in rows]})

@@ -19,7 +19,7 @@ def command(
     paths: Annotated[
         list[str],
         typer.Argument(
-            metavar="PATH...",
+            metavar="PATH",
             help="Events separated by blanks, with or without the angle brackets.",
         ),
     ],
@@ -29,7 +29,10 @@ def command(
     ] = "reference",
     json: _output.Json = False,
 ) -> None:
-    """Say for each path whether the expression takes it; exit 1 if one is not taken."""
+    """Say which paths an expression takes.
+
+    Exit code 1 if one of them is not taken.
+    """
     text = lpe.resolve(expression, lpe_table)
     parsed = lpe.parse(text)
     taken = [(path, lpe.match(parsed, path)) for path in paths]

@@ -87,7 +87,10 @@ def command(
     ] = None,
     json: _output.Json = False,
 ) -> None:
-    """List the nodes that a scene may use, or one node's parameters, defaults and lobes."""
+    """List the nodes, or show one in full.
+
+    In full: parameters with types and defaults, lobes with the light path events that they make.
+    """
     from lightsieve.scene import nodes
 
     known = nodes()

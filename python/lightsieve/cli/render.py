@@ -218,7 +218,11 @@ def command(
     ] = None,
     json: _output.Json = False,
 ) -> None:
-    """Render a scene: each driver of its options.outputs to its file, or RGBA to SCENE.exr."""
+    """Render a scene to its files.
+
+    Each driver of options.outputs writes its file; a scene without outputs writes RGBA to
+    SCENE.exr.
+    """
     if (scene is None) == (input_ is None):
         raise typer.BadParameter("name one scene: SCENE.ass, or -i FILE")
     path = scene or input_
