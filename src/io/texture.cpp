@@ -212,8 +212,8 @@ Rgba TextureCache::lookup(const Texture& texture, Vec2f uv, float footprint, con
     options.swrap = static_cast<OIIO::TextureOpt::Wrap>(oiio_wrap(sampling.wrap_s));
     options.twrap = static_cast<OIIO::TextureOpt::Wrap>(oiio_wrap(sampling.wrap_t));
     options.interpmode = static_cast<OIIO::TextureOpt::InterpMode>(oiio_filter(sampling.filter));
-    // The footprint is round: anisotropic filtering would find one axis and do the same.
-    options.mipmode = OIIO::TextureOpt::MipModeTrilinear;
+    // The footprint is round, but only the anisotropic mode knows smart bicubic interpolation.
+    options.mipmode = OIIO::TextureOpt::MipModeAniso;
     float v[4] = {0, 0, 0, 1};
     try {
         if (!state_->system->texture(texture.handle, state_->thread(), options, s, t, width, 0, 0, width, n, v)) {
