@@ -60,6 +60,9 @@ struct StandardSurface {
     void eval(const ShadePoint& at, ClosureSet& out) const;
 };
 
+/// Smallest cosine to the viewer that lobes are asked for.
+constexpr float kHorizon = 1e-5F;
+
 // Layers ------------------------------------------------------------------------------------------------------------
 
 /// One evaluation: walks down the layers and adds their lobes.
@@ -161,15 +164,18 @@ class Layering {
     /// Frame around the parameter's normal (0 0 0: the hit's), its x axis turned for anisotropy.
     [[nodiscard]] Oriented oriented(Vec3f linked_normal, float anisotropy, float rotation) {
         const bool own_normal = !(linked_normal == Vec3f{});
-        if (!own_normal && !(anisotropy > 0)) return {0, {0, 0, std::clamp(dot(at_.normal, at_.wo), kMinFacing, 1.0F)}};
+        if (!own_normal && !(anisotropy > 0)) return {0, local_wo({at_.tangent, cross(at_.normal, at_.tangent), at_.normal})};
         const Vec3f n = shading_normal(at_, linked_normal);
         Frame frame = Frame::from_z_x(n, s_.tangent == Vec3f{} ? at_.tangent : s_.tangent);
         // A full turn for rotation = 1, from x toward -y: standard_surface's OSL reference.
         if (const float angle = 2 * kPi * rotation; angle != 0 && std::isfinite(angle))
             frame = Frame::from_z_x(n, frame.x * std::cos(angle) - frame.y * std::sin(angle));
-        Vec3f wo = frame.local_from_world(at_.wo);
-        wo.z = std::max(wo.z, kMinFacing);
-        return {out_.add_frame(frame), normalize(wo)};
+        return {out_.add_frame(frame), local_wo(frame)};
+    }
+    /// The viewer's direction in a frame, as ClosureSet has it: lifted to the horizon.
+    [[nodiscard]] Vec3f local_wo(const Frame& frame) const {
+        const Vec3f wo = frame.local_from_world(at_.wo);
+        return {wo.x, wo.y, std::clamp(wo.z, kHorizon, 1.0F)};
     }
     [[nodiscard]] Oriented specular_frame() {
         if (!(s_.specular_anisotropy > 0)) return base_;
