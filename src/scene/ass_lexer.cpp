@@ -358,14 +358,16 @@ class ValueLexer {
         return n;
     }
 
-    /// Strings or names; where the first is quoted, all are, so that a missing one does not swallow a parameter's name.
+    /// Strings or names; where one is quoted, all are (but NULL), so that a missing one does not swallow a parameter's name.
     std::uint64_t count_texts(std::uint64_t limit, std::size_t& end) {
         std::uint64_t n = 0;
-        const bool quoted = lexer_.peek() == '"';
+        bool quoted = false, bare = false;
         while (n < limit) {
             AssLexer ahead = lexer_;
             const Token token = ahead.next();
-            if (token.kind != (quoted ? TokenKind::String : TokenKind::Word)) break;
+            const bool null = token.kind == TokenKind::Word && lexer_.text(token) == "NULL";
+            if (!null) (token.kind == TokenKind::String ? quoted : bare) = true;
+            if ((token.kind != TokenKind::String && token.kind != TokenKind::Word) || (quoted && bare)) break;
             lexer_ = ahead;
             if (!token.closed) {
                 unclosed(token);
