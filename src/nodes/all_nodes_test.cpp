@@ -16,8 +16,10 @@ class EveryNode : public testing::TestWithParam<std::string> {
 
 TEST_P(EveryNode, IsDocumented) {
     EXPECT_TRUE(type().doc.ends_with('.')) << type().doc;
-    for (const ParamInfo& p : type().params) EXPECT_TRUE(p.doc.size() > 5 && p.doc.ends_with('.')) << p.name.view() << ": " << p.doc;
-    for (const LobeInfo& l : type().lobes) EXPECT_TRUE(l.doc.ends_with('.')) << l.index;
+    for (const ParamInfo& p : type().params)
+        EXPECT_TRUE(p.doc.size() > 5 && p.doc.ends_with('.')) << p.name.view() << ": " << p.doc;
+    for (const LobeInfo& l : type().lobes)
+        EXPECT_TRUE(l.doc.ends_with('.')) << l.index;
 }
 
 TEST_P(EveryNode, HasParametersOfItsOwnMemory) {
@@ -43,7 +45,8 @@ TEST_P(EveryNode, NamesEveryEnumerator) {
         if (p.type != lightsieve::ParamType::Enum || p.is_array) continue;
         std::int32_t value = -1;
         std::memcpy(&value, type().default_block.data() + p.offset, sizeof(value));
-        EXPECT_TRUE(value >= 0 && static_cast<std::size_t>(value) < p.enumerators.size()) << p.name.view();
+        EXPECT_TRUE(value >= 0 && static_cast<std::size_t>(value) < p.enumerators.size())
+            << p.name.view();
     }
 }
 
@@ -83,18 +86,39 @@ TEST(NodeDefaults, AreThoseMeasured) {
         double value;
     };
     const std::vector<Row> rows{
-        {"options", "AA_samples", 1}, {"options", "GI_diffuse_depth", 0}, {"options", "GI_specular_depth", 0},
-        {"options", "GI_transmission_depth", 2}, {"options", "GI_volume_depth", 0}, {"options", "GI_total_depth", 10},
-        {"options", "auto_transparency_depth", 10}, {"options", "indirect_sample_clamp", 10},
-        {"options", "xres", 320}, {"options", "yres", 240}, {"options", "pixel_aspect_ratio", 1}, {"options", "bucket_size", 64},
-        {"options", "AA_seed", 1}, {"options", "abort_on_error", 1},
-        {"persp_camera", "near_clip", 1e-4F}, {"persp_camera", "exposure", 0},
-        {"polymesh", "smoothing", 0}, {"polymesh", "visibility", 255}, {"polymesh", "sidedness", 255},
-        {"sphere", "radius", 0.5}, {"ginstance", "inherit_xform", 1},
-        {"standard_surface", "base", 1}, {"standard_surface", "specular", 1}, {"standard_surface", "specular_roughness", 0.2F},
-        {"standard_surface", "specular_IOR", 1.5}, {"standard_surface", "coat_roughness", 0.1F}, {"standard_surface", "sheen_roughness", 0.3F},
-        {"standard_surface", "caustics", 0}, {"standard_surface", "internal_reflections", 1},
-        {"lambert", "Kd", 0.7F}, {"checkerboard", "u_frequency", 1}, {"utility", "shade_mode", 0}, {"utility", "color_mode", 0},
+        {"options", "AA_samples", 1},
+        {"options", "GI_diffuse_depth", 0},
+        {"options", "GI_specular_depth", 0},
+        {"options", "GI_transmission_depth", 2},
+        {"options", "GI_volume_depth", 0},
+        {"options", "GI_total_depth", 10},
+        {"options", "auto_transparency_depth", 10},
+        {"options", "indirect_sample_clamp", 10},
+        {"options", "xres", 320},
+        {"options", "yres", 240},
+        {"options", "pixel_aspect_ratio", 1},
+        {"options", "bucket_size", 64},
+        {"options", "AA_seed", 1},
+        {"options", "abort_on_error", 1},
+        {"persp_camera", "near_clip", 1e-4F},
+        {"persp_camera", "exposure", 0},
+        {"polymesh", "smoothing", 0},
+        {"polymesh", "visibility", 255},
+        {"polymesh", "sidedness", 255},
+        {"sphere", "radius", 0.5},
+        {"ginstance", "inherit_xform", 1},
+        {"standard_surface", "base", 1},
+        {"standard_surface", "specular", 1},
+        {"standard_surface", "specular_roughness", 0.2F},
+        {"standard_surface", "specular_IOR", 1.5},
+        {"standard_surface", "coat_roughness", 0.1F},
+        {"standard_surface", "sheen_roughness", 0.3F},
+        {"standard_surface", "caustics", 0},
+        {"standard_surface", "internal_reflections", 1},
+        {"lambert", "Kd", 0.7F},
+        {"checkerboard", "u_frequency", 1},
+        {"utility", "shade_mode", 0},
+        {"utility", "color_mode", 0},
     };
     for (const Row& row : rows) {
         const NodeType& type = *builtin_registry().find(row.node);
@@ -102,9 +126,12 @@ TEST(NodeDefaults, AreThoseMeasured) {
         ASSERT_NE(p, nullptr) << row.node << "." << row.param;
         const std::byte* at = type.default_block.data() + p->offset;
         double value = -1;
-        if (p->type == ParamType::Float) value = static_cast<double>(*reinterpret_cast<const float*>(at));
-        if (p->type == ParamType::Int || p->type == ParamType::Enum) value = *reinterpret_cast<const std::int32_t*>(at);
-        if (p->type == ParamType::Bool || p->type == ParamType::Byte) value = static_cast<double>(std::to_integer<int>(*at));
+        if (p->type == ParamType::Float)
+            value = static_cast<double>(*reinterpret_cast<const float*>(at));
+        if (p->type == ParamType::Int || p->type == ParamType::Enum)
+            value = *reinterpret_cast<const std::int32_t*>(at);
+        if (p->type == ParamType::Bool || p->type == ParamType::Byte)
+            value = static_cast<double>(std::to_integer<int>(*at));
         EXPECT_EQ(value, row.value) << row.node << "." << row.param;
     }
 }

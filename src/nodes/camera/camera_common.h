@@ -28,23 +28,23 @@ enum class RollingShutter : std::int32_t { Off, Top, Bottom, Left, Right };
 
 /// Parameters of every camera node.
 struct CameraCommon {
-    Array<Mat4f> matrix;                                             ///< world_from_camera, one a key
-    Array<Vec3f> position{&camera_defaults::kPosition, 1, 1};        ///< used where no matrix is written
-    Array<Vec3f> look_at{&camera_defaults::kLookAt, 1, 1};           ///< point in the middle of the picture
-    Array<Vec3f> up{&camera_defaults::kUp, 1, 1};                    ///< need not be orthogonal to the view
-    Handedness handedness = Handedness::Right;                       ///< left mirrors the picture's x
-    float near_clip = 1e-4F, far_clip = 1e30F;                       ///< along the viewing axis
+    Array<Mat4f> matrix;                                       ///< world_from_camera, one a key
+    Array<Vec3f> position{&camera_defaults::kPosition, 1, 1};  ///< used where no matrix is written
+    Array<Vec3f> look_at{&camera_defaults::kLookAt, 1, 1};  ///< point in the middle of the picture
+    Array<Vec3f> up{&camera_defaults::kUp, 1, 1};           ///< need not be orthogonal to the view
+    Handedness handedness = Handedness::Right;              ///< left mirrors the picture's x
+    float near_clip = 1e-4F, far_clip = 1e30F;              ///< along the viewing axis
     Array<Vec2f> screen_window_min{&camera_defaults::kWindowMin, 1, 1};
     Array<Vec2f> screen_window_max{&camera_defaults::kWindowMax, 1, 1};
-    float exposure = 0;                                              ///< f-stops
-    float shutter_start = 0, shutter_end = 0;                        ///< on the clock of motion keys
+    float exposure = 0;                        ///< f-stops
+    float shutter_start = 0, shutter_end = 0;  ///< on the clock of motion keys
     ShutterType shutter_type = ShutterType::Box;
-    Array<Vec2f> shutter_curve;                                      ///< (time, openness) with shutter_type curve
+    Array<Vec2f> shutter_curve;  ///< (time, openness) with shutter_type curve
     RollingShutter rolling_shutter = RollingShutter::Off;
     float rolling_shutter_duration = 0;
-    float motion_start = 0, motion_end = 1;                          ///< where the first and last key lie
-    NodeRef filtermap;                                               ///< pending
-    Rgba uv_remap{{0, 0, 0}, 1};                                     ///< pending
+    float motion_start = 0, motion_end = 1;  ///< where the first and last key lie
+    NodeRef filtermap;                       ///< pending
+    Rgba uv_remap{{0, 0, 0}, 1};             ///< pending
     Array<Vec2f> lens_shift{&camera_defaults::kNoShift, 1, 1};       ///< only 0 0 is supported
     Array<Vec2f> lens_tilt_angle{&camera_defaults::kNoShift, 1, 1};  ///< only 0 0 is supported
 };
@@ -52,35 +52,56 @@ struct CameraCommon {
 /// Documents the parameters of `CameraCommon`.
 template <class T>
 void describe_camera_common(Describe<T>& d) {
-    d.param("matrix", &CameraCommon::matrix, "Placement in the world, row vectors; one matrix a motion key.");
-    d.param("position", &CameraCommon::position, "Place of the eye; used if no matrix is written.");
-    d.param("look_at", &CameraCommon::look_at, "Point that the camera looks at; used if no matrix is written.");
-    d.param("up", &CameraCommon::up, "Direction that points up in the picture; used if no matrix is written.");
-    d.param("handedness", &CameraCommon::handedness, "Handedness of the camera's axes; left mirrors the picture.")
+    d.param("matrix", &CameraCommon::matrix,
+            "Placement in the world, row vectors; one matrix a motion key.");
+    d.param("position", &CameraCommon::position,
+            "Place of the eye; used if no matrix is written.");
+    d.param("look_at", &CameraCommon::look_at,
+            "Point that the camera looks at; used if no matrix is written.");
+    d.param("up", &CameraCommon::up,
+            "Direction that points up in the picture; used if no matrix is written.");
+    d.param("handedness", &CameraCommon::handedness,
+            "Handedness of the camera's axes; left mirrors the picture.")
         .names({"right", "left"});
-    d.param("near_clip", &CameraCommon::near_clip, "Nearest depth along the viewing axis that is seen.").unit("scene units");
-    d.param("far_clip", &CameraCommon::far_clip, "Farthest depth along the viewing axis that is seen.").unit("scene units");
-    d.param("screen_window_min", &CameraCommon::screen_window_min, "Screen point at the left and bottom of the frame.");
-    d.param("screen_window_max", &CameraCommon::screen_window_max, "Screen point at the right and top of the frame.");
-    d.param("exposure", &CameraCommon::exposure, "The picture is multiplied by 2^exposure.").unit("f-stops");
-    d.param("shutter_start", &CameraCommon::shutter_start, "Time at which the shutter opens.").unit("frames");
-    d.param("shutter_end", &CameraCommon::shutter_end, "Time at which the shutter closes.").unit("frames");
-    d.param("shutter_type", &CameraCommon::shutter_type, "How openness changes while the shutter is open.")
+    d.param("near_clip", &CameraCommon::near_clip,
+            "Nearest depth along the viewing axis that is seen.")
+        .unit("scene units");
+    d.param("far_clip", &CameraCommon::far_clip,
+            "Farthest depth along the viewing axis that is seen.")
+        .unit("scene units");
+    d.param("screen_window_min", &CameraCommon::screen_window_min,
+            "Screen point at the left and bottom of the frame.");
+    d.param("screen_window_max", &CameraCommon::screen_window_max,
+            "Screen point at the right and top of the frame.");
+    d.param("exposure", &CameraCommon::exposure, "The picture is multiplied by 2^exposure.")
+        .unit("f-stops");
+    d.param("shutter_start", &CameraCommon::shutter_start, "Time at which the shutter opens.")
+        .unit("frames");
+    d.param("shutter_end", &CameraCommon::shutter_end, "Time at which the shutter closes.")
+        .unit("frames");
+    d.param("shutter_type", &CameraCommon::shutter_type,
+            "How openness changes while the shutter is open.")
         .names({"box", "triangle", "curve"});
     d.param("shutter_curve", &CameraCommon::shutter_curve,
             "Points (time in 0..1, openness) of a polyline, for shutter_type curve.");
-    d.param("rolling_shutter", &CameraCommon::rolling_shutter, "Edge of the frame that is exposed first.")
+    d.param("rolling_shutter", &CameraCommon::rolling_shutter,
+            "Edge of the frame that is exposed first.")
         .names({"off", "top", "bottom", "left", "right"})
         .pending();
     d.param("rolling_shutter_duration", &CameraCommon::rolling_shutter_duration,
             "Part of the shutter in which one line is exposed; acts with rolling_shutter.")
         .ignored();
-    d.param("motion_start", &CameraCommon::motion_start, "Time of the first motion key.").unit("frames");
-    d.param("motion_end", &CameraCommon::motion_end, "Time of the last motion key.").unit("frames");
+    d.param("motion_start", &CameraCommon::motion_start, "Time of the first motion key.")
+        .unit("frames");
+    d.param("motion_end", &CameraCommon::motion_end, "Time of the last motion key.")
+        .unit("frames");
     d.param("filtermap", &CameraCommon::filtermap, "Shader that weights the film.").pending();
     d.param("uv_remap", &CameraCommon::uv_remap, "Warps the film's coordinates.").pending();
-    d.param("lens_shift", &CameraCommon::lens_shift, "Moves the frame on the film; only 0 0 is supported yet.");
-    d.param("lens_tilt_angle", &CameraCommon::lens_tilt_angle, "Tilts the lens; only 0 0 is supported yet.").unit("deg");
+    d.param("lens_shift", &CameraCommon::lens_shift,
+            "Moves the frame on the film; only 0 0 is supported yet.");
+    d.param("lens_tilt_angle", &CameraCommon::lens_tilt_angle,
+            "Tilts the lens; only 0 0 is supported yet.")
+        .unit("deg");
 }
 
 /// The shutter as a density over [0,1): a polyline through (time, openness).
@@ -102,7 +123,9 @@ class Shutter {
 class PlacedCamera : public Camera {
   public:
     PlacedCamera(const CameraCommon& params, NodeContext& context);
-    [[nodiscard]] Mat4f camera_from_world(float time) const override { return world_from_camera_.at(time).inverse(); }
+    [[nodiscard]] Mat4f camera_from_world(float time) const override {
+        return world_from_camera_.at(time).inverse();
+    }
     [[nodiscard]] float sample_time(float u) const override { return shutter_.sample(u); }
     [[nodiscard]] float shutter_start() const override { return clock_.start; }
     [[nodiscard]] float shutter_end() const override { return clock_.end; }

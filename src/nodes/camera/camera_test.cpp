@@ -12,7 +12,9 @@ NodeType node_ortho_camera();
 
 namespace {
 
-std::unique_ptr<Camera> make(const TestNode& node, TestContext& context) { return node.type().make_camera(node.block(), context); }
+std::unique_ptr<Camera> make(const TestNode& node, TestContext& context) {
+    return node.type().make_camera(node.block(), context);
+}
 std::unique_ptr<Camera> make(const TestNode& node) {
     TestContext context;
     auto camera = make(node, context);
@@ -20,7 +22,9 @@ std::unique_ptr<Camera> make(const TestNode& node) {
     return camera;
 }
 
-void expect_near(Vec3f a, Vec3f b, float tolerance = 1e-5F) { EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z; }
+void expect_near(Vec3f a, Vec3f b, float tolerance = 1e-5F) {
+    EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
+}
 
 /// Direction by the formula of the scene format, for a frame of 160 x 120.
 Vec3f formula(float sx, float sy, float fov_deg, float pixel_aspect) {
@@ -38,8 +42,10 @@ TEST(PerspCamera, DirectionsFollowTheFormula) {
         expect_near(camera->ray({0.5F, 0.5F}, {}, 0).direction, {0, 0, -1});
         // Film x to the right, film y down; the upper left corner is sx = -1, sy = 1.
         expect_near(camera->ray({0, 0}, {}, 0).direction, formula(-1, 1, 54.4322243F, aspect));
-        expect_near(camera->ray({0.75F, 0.9F}, {}, 0).direction, formula(0.5F, -0.8F, 54.4322243F, aspect));
-        expect_near(camera->ray({1.5F, 0.5F}, {}, 0).direction, formula(2, 0, 54.4322243F, aspect));
+        expect_near(camera->ray({0.75F, 0.9F}, {}, 0).direction,
+                    formula(0.5F, -0.8F, 54.4322243F, aspect));
+        expect_near(camera->ray({1.5F, 0.5F}, {}, 0).direction,
+                    formula(2, 0, 54.4322243F, aspect));
     }
 }
 
@@ -58,10 +64,13 @@ TEST(PerspCamera, MatrixPlacesTheEye) {
 
 TEST(PerspCamera, LookAtIsUsedWithoutMatrix) {
     TestNode node(node_persp_camera());
-    node.set_array<Vec3f>("position", {{0, 0, 10}}).set_array<Vec3f>("look_at", {{10, 0, 10}}).set_array<Vec3f>("up", {{0, 0, 1}});
+    node.set_array<Vec3f>("position", {{0, 0, 10}})
+        .set_array<Vec3f>("look_at", {{10, 0, 10}})
+        .set_array<Vec3f>("up", {{0, 0, 1}});
     const auto camera = make(node);
     expect_near(camera->ray({0.5F, 0.5F}, {}, 0).direction, {1, 0, 0});
-    EXPECT_GT(camera->ray({0.5F, 0}, {}, 0).direction.z, 0);  // the top of the picture is toward `up`
+    EXPECT_GT(camera->ray({0.5F, 0}, {}, 0).direction.z,
+              0);  // the top of the picture is toward `up`
     EXPECT_LT(camera->ray({1, 0.5F}, {}, 0).direction.y, 0);
 }
 
@@ -76,14 +85,21 @@ TEST(PerspCamera, LeftHandednessMirrors) {
 TEST(PerspCamera, ScreenWindowCropsAndShifts) {
     TestNode node(node_persp_camera());
     const Vec3f there = make(node)->ray({0.75F, 0.25F}, {}, 0).direction;
-    node.set_array<Vec2f>("screen_window_min", {{0, 0}}).set_array<Vec2f>("screen_window_max", {{1, 1}});
+    node.set_array<Vec2f>("screen_window_min", {{0, 0}})
+        .set_array<Vec2f>("screen_window_max", {{1, 1}});
     expect_near(make(node)->ray({0.5F, 0.5F}, {}, 0).direction, there);
 }
 
 TEST(PerspCamera, KeysMoveOnTheClockOfTheShutter) {
     TestNode node(node_persp_camera());
-    node.set_array<Mat4f>("matrix", {Mat4f::translation({0, 0, 0}), Mat4f::translation({4, 0, 0}), Mat4f::translation({4, 8, 0})}, 3);
-    node.set("motion_start", -1.0F).set("motion_end", 1.0F).set("shutter_start", -0.5F).set("shutter_end", 0.5F);
+    node.set_array<Mat4f>("matrix",
+                          {Mat4f::translation({0, 0, 0}), Mat4f::translation({4, 0, 0}),
+                           Mat4f::translation({4, 8, 0})},
+                          3);
+    node.set("motion_start", -1.0F)
+        .set("motion_end", 1.0F)
+        .set("shutter_start", -0.5F)
+        .set("shutter_end", 0.5F);
     const auto camera = make(node);
     EXPECT_EQ(camera->shutter_start(), -0.5F);
     EXPECT_EQ(camera->shutter_end(), 0.5F);
@@ -111,7 +127,8 @@ TEST(PerspCamera, LensKeepsThePointInFocus) {
     const Vec3f focus = sharp * (4 / -sharp.z);
     float widest = 0;
     for (int i = 0; i < 64; ++i) {
-        const CameraRay ray = camera->ray(film, {static_cast<float>(i % 8) / 8, static_cast<float>(i / 8) / 8}, 0);
+        const CameraRay ray =
+            camera->ray(film, {static_cast<float>(i % 8) / 8, static_cast<float>(i / 8) / 8}, 0);
         widest = std::max(widest, length(ray.origin));
         expect_near(ray.origin + ray.direction * (length(focus - ray.origin)), focus, 1e-4F);
     }
@@ -122,12 +139,19 @@ TEST(PerspCamera, LensKeepsThePointInFocus) {
 TEST(PerspCamera, ApertureBladesMakeAPolygon) {
     TestNode node(node_persp_camera());
     node.set_array<float>("aperture_size", {1}).set("aperture_blades", std::int32_t{4});
-    const auto outside = [](Vec3f p) { return std::abs(p.x) + std::abs(p.y) - 1; };  // of the square with corners on the axes
+    const auto outside = [](Vec3f p) {
+        return std::abs(p.x) + std::abs(p.y) - 1;
+    };  // of the square with corners on the axes
     float most = -1;
     const auto visit = [&](const Camera& camera) {
         most = -1;
         for (int i = 0; i < 400; ++i)
-            most = std::max(most, outside(camera.ray({0.5F, 0.5F}, {static_cast<float>(i % 20) / 20, static_cast<float>(i / 20) / 20}, 0).origin));
+            most = std::max(most, outside(camera
+                                              .ray({0.5F, 0.5F},
+                                                   {static_cast<float>(i % 20) / 20,
+                                                    static_cast<float>(i / 20) / 20},
+                                                   0)
+                                              .origin));
     };
     visit(*make(node));
     EXPECT_NEAR(most, 0, 0.06);
@@ -149,13 +173,15 @@ TEST(PerspCamera, ClippingPlanesAreDepths) {
 TEST(PerspCamera, SpreadIsTheAngleOfAPixel) {
     const auto camera = make(TestNode(node_persp_camera()));
     const float half_pixel = 0.5F / 160;
-    const Vec3f a = camera->ray({0.5F - half_pixel, 0.5F}, {}, 0).direction, b = camera->ray({0.5F + half_pixel, 0.5F}, {}, 0).direction;
+    const Vec3f a = camera->ray({0.5F - half_pixel, 0.5F}, {}, 0).direction,
+                b = camera->ray({0.5F + half_pixel, 0.5F}, {}, 0).direction;
     EXPECT_NEAR(camera->ray({0.5F, 0.5F}, {}, 0).spread, length(a - b), 1e-6);
 }
 
 TEST(OrthoCamera, RaysAreParallelInSceneUnits) {
     TestNode node(node_ortho_camera());
-    node.set_array<Vec2f>("screen_window_min", {{-15, -15}}).set_array<Vec2f>("screen_window_max", {{15, 15}});
+    node.set_array<Vec2f>("screen_window_min", {{-15, -15}})
+        .set_array<Vec2f>("screen_window_max", {{15, 15}});
     TestContext context;
     context.size.pixel_aspect_ratio = 1.25F;
     const auto camera = make(node, context);
@@ -174,7 +200,8 @@ TEST(CameraShutter, TypesShapeTheTimes) {
     EXPECT_NEAR(make(node)->sample_time(0.02F), 0.1F, 1e-5);
     EXPECT_NEAR(make(node)->sample_time(0.5F), 0.5F, 1e-5);
     EXPECT_NEAR(make(node)->sample_time(0.98F), 0.9F, 1e-5);
-    node.set_enum("shutter_type", 2).set_array<Vec2f>("shutter_curve", {{0.25F, 1}, {0.5F, 1}, {0.5F, 3}, {0.75F, 3}});
+    node.set_enum("shutter_type", 2)
+        .set_array<Vec2f>("shutter_curve", {{0.25F, 1}, {0.5F, 1}, {0.5F, 3}, {0.75F, 3}});
     EXPECT_NEAR(make(node)->sample_time(0.125F), 0.375F, 1e-5);
     EXPECT_NEAR(make(node)->sample_time(0.625F), 0.625F, 1e-5);
     EXPECT_LT(make(node)->sample_time(0x1.fffffep-1F), 1);
@@ -187,7 +214,9 @@ TEST(CameraShutter, TypesShapeTheTimes) {
 TEST(Cameras, BadPlacementIsAnError) {
     for (const NodeType& type : {node_persp_camera(), node_ortho_camera()}) {
         TestNode node(type);
-        for (const Mat4f& bad : {Mat4f::scale({1, 1, 0}), Mat4f::translation({std::numeric_limits<float>::quiet_NaN(), 0, 0})}) {
+        for (const Mat4f& bad :
+             {Mat4f::scale({1, 1, 0}),
+              Mat4f::translation({std::numeric_limits<float>::quiet_NaN(), 0, 0})}) {
             node.set_array<Mat4f>("matrix", {bad});
             TestContext context;
             EXPECT_NE(make(node, context), nullptr);

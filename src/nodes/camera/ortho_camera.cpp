@@ -17,8 +17,9 @@ class OrthoCameraRays final : public PlacedCamera {
 
 struct OrthoCamera : CameraCommon {
     static NodeType describe() {
-        Describe<OrthoCamera> d("ortho_camera", NodeKind::Camera,
-                                "Parallel projection; the screen window gives the frame's size in scene units.");
+        Describe<OrthoCamera> d(
+            "ortho_camera", NodeKind::Camera,
+            "Parallel projection; the screen window gives the frame's size in scene units.");
         describe_camera_common(d);
         return d.done();
     }

@@ -10,14 +10,14 @@ namespace {
 constexpr float kMinFov = 1e-3F, kMaxFov = 179.9F;
 
 struct PerspCamera : CameraCommon {
-    Array<float> fov{&camera_defaults::kFov, 1, 1};                       ///< horizontal full angle
+    Array<float> fov{&camera_defaults::kFov, 1, 1};  ///< horizontal full angle
     Array<float> focus_distance{&camera_defaults::kFocusDistance, 1, 1};  ///< from the eye
     Array<float> aperture_size{&camera_defaults::kApertureSize, 1, 1};    ///< radius of the lens
     std::int32_t aperture_blades = 0;                                     ///< fewer than 3: a disc
-    float aperture_blade_curvature = 0;                                   ///< 1: a disc, below 0: a star
+    float aperture_blade_curvature = 0;  ///< 1: a disc, below 0: a star
     float aperture_rotation = 0;
     float aperture_aspect_ratio = 1;
-    bool flat_field_focus = true;                                         ///< focus on a plane, not on a sphere
+    bool flat_field_focus = true;  ///< focus on a plane, not on a sphere
 
     static NodeType describe();
     [[nodiscard]] std::unique_ptr<Camera> make_camera(NodeContext& context) const;
@@ -30,7 +30,8 @@ class PerspCameraRays final : public PlacedCamera {
           fov_(keyed(p.fov, camera_defaults::kFov)),
           focus_distance_(keyed(p.focus_distance, camera_defaults::kFocusDistance)),
           aperture_size_(keyed(p.aperture_size, camera_defaults::kApertureSize)),
-          has_lens_(std::any_of(aperture_size_.keys().begin(), aperture_size_.keys().end(), [](float r) { return r > 0; })),
+          has_lens_(std::any_of(aperture_size_.keys().begin(), aperture_size_.keys().end(),
+                                [](float r) { return r > 0; })),
           n_blades_(p.aperture_blades >= 3 ? p.aperture_blades : 0),
           curvature_(std::clamp(p.aperture_blade_curvature, -1.0F, 1.0F)),
           rotation_(deg_to_rad(p.aperture_rotation)),
@@ -73,13 +74,16 @@ class PerspCameraRays final : public PlacedCamera {
         // Choose a blade with the first number and stretch what is left of it.
         const float n = static_cast<float>(n_blades_);
         const float blade = std::min(std::floor(u.x * n), n - 1);
-        const Vec2f b = sample_uniform_triangle({std::min(u.x * n - blade, kOneMinusEpsilon), u.y});
+        const Vec2f b =
+            sample_uniform_triangle({std::min(u.x * n - blade, kOneMinusEpsilon), u.y});
         const float sector = 2 * kPi / n, from = rotation_ + blade * sector;
-        const Vec2f p{b.x * std::cos(from) + b.y * std::cos(from + sector), b.x * std::sin(from) + b.y * std::sin(from + sector)};
+        const Vec2f p{b.x * std::cos(from) + b.y * std::cos(from + sector),
+                      b.x * std::sin(from) + b.y * std::sin(from + sector)};
         if (curvature_ == 0) return p;
         // Scale along the radius so that the polygon's edge moves toward the circle, or as far inward.
         const float angle = std::atan2(p.y, p.x) - from;
-        const float edge = std::cos(sector * 0.5F) / std::cos(angle - std::floor(angle / sector) * sector - sector * 0.5F);
+        const float edge = std::cos(sector * 0.5F) /
+                           std::cos(angle - std::floor(angle / sector) * sector - sector * 0.5F);
         return p * ((edge + curvature_ * (1 - edge)) / edge);
     }
 
@@ -88,23 +92,35 @@ class PerspCameraRays final : public PlacedCamera {
     std::int32_t n_blades_;
     float curvature_, rotation_, aspect_;
     bool flat_focus_;
-    float fixed_tan_;     ///< of half the field of view at shutter time 0
-    float spread_ = 0;    ///< angle of one pixel in the middle of the frame
+    float fixed_tan_;   ///< of half the field of view at shutter time 0
+    float spread_ = 0;  ///< angle of one pixel in the middle of the frame
 };
 
 NodeType PerspCamera::describe() {
-    Describe<PerspCamera> d("persp_camera", NodeKind::Camera, "Perspective projection, with depth of field.");
+    Describe<PerspCamera> d("persp_camera", NodeKind::Camera,
+                            "Perspective projection, with depth of field.");
     describe_camera_common(d);
-    d.param("fov", &PerspCamera::fov, "Horizontal field of view, the full angle over screen x = -1..1.").unit("deg").range(kMinFov, kMaxFov);
-    d.param("focus_distance", &PerspCamera::focus_distance, "Depth at which the picture is sharp.").unit("scene units").range(0, kInfinity);
-    d.param("aperture_size", &PerspCamera::aperture_size, "Radius of the lens; 0 is a pinhole.").unit("scene units").range(0, kInfinity);
-    d.param("aperture_blades", &PerspCamera::aperture_blades, "Edges of the aperture; fewer than 3 is a disc.");
+    d.param("fov", &PerspCamera::fov,
+            "Horizontal field of view, the full angle over screen x = -1..1.")
+        .unit("deg")
+        .range(kMinFov, kMaxFov);
+    d.param("focus_distance", &PerspCamera::focus_distance, "Depth at which the picture is sharp.")
+        .unit("scene units")
+        .range(0, kInfinity);
+    d.param("aperture_size", &PerspCamera::aperture_size, "Radius of the lens; 0 is a pinhole.")
+        .unit("scene units")
+        .range(0, kInfinity);
+    d.param("aperture_blades", &PerspCamera::aperture_blades,
+            "Edges of the aperture; fewer than 3 is a disc.");
     d.param("aperture_blade_curvature", &PerspCamera::aperture_blade_curvature,
             "0: straight edges, 1: a disc, below 0: edges bent inward.")
         .range(-1, 1);
-    d.param("aperture_rotation", &PerspCamera::aperture_rotation, "Turns the aperture's polygon.").unit("deg");
-    d.param("aperture_aspect_ratio", &PerspCamera::aperture_aspect_ratio, "Width of the aperture over its height.");
-    d.param("flat_field_focus", &PerspCamera::flat_field_focus, "Sharp on a plane; off: on a sphere around the eye.");
+    d.param("aperture_rotation", &PerspCamera::aperture_rotation, "Turns the aperture's polygon.")
+        .unit("deg");
+    d.param("aperture_aspect_ratio", &PerspCamera::aperture_aspect_ratio,
+            "Width of the aperture over its height.");
+    d.param("flat_field_focus", &PerspCamera::flat_field_focus,
+            "Sharp on a plane; off: on a sphere around the eye.");
     return d.done();
 }
 

@@ -16,7 +16,9 @@ std::vector<Mat4f> placement(const CameraCommon& p, NodeContext& context) {
         const auto ups = key_values(p.up, camera_defaults::kUp);
         const std::size_t n = std::max({eyes.size(), targets.size(), ups.size()});
         // A parameter with fewer keys than the others keeps its last one.
-        const auto key = [](const std::vector<Vec3f>& v, std::size_t i) { return v[std::min(i, v.size() - 1)]; };
+        const auto key = [](const std::vector<Vec3f>& v, std::size_t i) {
+            return v[std::min(i, v.size() - 1)];
+        };
         for (std::size_t i = 0; i < n; ++i)
             keys.push_back(Mat4f::look_at(key(eyes, i), key(targets, i), key(ups, i)));
     }
@@ -24,10 +26,12 @@ std::vector<Mat4f> placement(const CameraCommon& p, NodeContext& context) {
         bool ok = m.finite();
         if (ok) static_cast<void>(m.inverse(&ok));
         if (ok) continue;
-        context.diagnostics().error(Code::InvalidValue,
-                                    fmt::format("the placement of camera \"{}\" cannot be inverted", context.node_name().view()),
-                                    context.where("matrix"),
-                                    "the matrix must hold finite numbers and three independent axes");
+        context.diagnostics().error(
+            Code::InvalidValue,
+            fmt::format("the placement of camera \"{}\" cannot be inverted",
+                        context.node_name().view()),
+            context.where("matrix"),
+            "the matrix must hold finite numbers and three independent axes");
         return {Mat4f{}};
     }
     return keys;
@@ -42,30 +46,35 @@ Shutter make_shutter(const CameraCommon& p, NodeContext& context) {
     bool good = p.shutter_curve.n >= 2;
     for (const Vec2f point : p.shutter_curve.first_key()) {
         const float previous = points.empty() ? 0 : points.back().x;
-        good = good && point.x >= previous && point.x <= 1 && point.y >= 0 && std::isfinite(point.y);
+        good =
+            good && point.x >= previous && point.x <= 1 && point.y >= 0 && std::isfinite(point.y);
         if (!good) break;
         if (!points.empty()) area += (point.x - previous) * (point.y + points.back().y) * 0.5F;
         points.push_back(point);
     }
     if (good && area > 0 && std::isfinite(area)) return Shutter(std::move(points));
-    context.diagnostics().warning(Code::InvalidValue, "shutter_curve is no curve; the shutter is taken as a box",
-                                  context.where("shutter_curve"),
-                                  "give at least two points with rising times in 0..1 and openness above 0");
+    context.diagnostics().warning(
+        Code::InvalidValue, "shutter_curve is no curve; the shutter is taken as a box",
+        context.where("shutter_curve"),
+        "give at least two points with rising times in 0..1 and openness above 0");
     return {};
 }
 
 void warn_if_used(const Array<Vec2f>& values, const char* param, NodeContext& context) {
     const auto keys = key_values(values, Vec2f{});
     if (std::all_of(keys.begin(), keys.end(), [](Vec2f v) { return v == Vec2f{}; })) return;
-    context.diagnostics().warning(Code::ParamPending, fmt::format("\"{}\" is not supported yet and taken as 0 0", param),
-                                  context.where(param), "the picture's framing differs from the scene's intent");
+    context.diagnostics().warning(
+        Code::ParamPending, fmt::format("\"{}\" is not supported yet and taken as 0 0", param),
+        context.where(param), "the picture's framing differs from the scene's intent");
 }
 
 }  // namespace
 
-Shutter::Shutter(std::vector<Vec2f> points) : points_(std::move(points)), area_(points_.size(), 0.0F) {
+Shutter::Shutter(std::vector<Vec2f> points)
+    : points_(std::move(points)), area_(points_.size(), 0.0F) {
     for (std::size_t i = 1; i < points_.size(); ++i)
-        area_[i] = area_[i - 1] + (points_[i].x - points_[i - 1].x) * (points_[i].y + points_[i - 1].y) * 0.5F;
+        area_[i] = area_[i - 1] +
+                   (points_[i].x - points_[i - 1].x) * (points_[i].y + points_[i - 1].y) * 0.5F;
     const float total = area_.back();
     for (float& a : area_)
         a /= total;
@@ -102,14 +111,16 @@ PlacedCamera::PlacedCamera(const CameraCommon& p, NodeContext& context)
     const NodeContext::Frame frame = context.frame();
     frame_width_ = std::max(1, frame.width);
     const float aspect = frame.pixel_aspect_ratio > 0 ? frame.pixel_aspect_ratio : 1;
-    frame_ratio_ = static_cast<float>(std::max(1, frame.height)) / static_cast<float>(frame_width_) / aspect;
+    frame_ratio_ =
+        static_cast<float>(std::max(1, frame.height)) / static_cast<float>(frame_width_) / aspect;
     warn_if_used(p.lens_shift, "lens_shift", context);
     warn_if_used(p.lens_tilt_angle, "lens_tilt_angle", context);
 }
 
 Vec2f PlacedCamera::screen_point(Vec2f film, float time) const {
     const Vec2f low = window_min_.at(time), high = window_max_.at(time);
-    return {mirror_ * std::lerp(low.x, high.x, film.x), frame_ratio_ * std::lerp(high.y, low.y, film.y)};
+    return {mirror_ * std::lerp(low.x, high.x, film.x),
+            frame_ratio_ * std::lerp(high.y, low.y, film.y)};
 }
 
 CameraRay PlacedCamera::to_world(Vec3f origin, Vec3f direction, float time) const {

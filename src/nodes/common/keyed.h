@@ -30,7 +30,8 @@ class Keyed {
     Keyed() = default;
     /// keys     at least one
     /// motion   where the first and the last key lie; shutter: what times 0 and 1 mean
-    Keyed(std::vector<T> keys, ClockInterval motion, ClockInterval shutter) : keys_(std::move(keys)) {
+    Keyed(std::vector<T> keys, ClockInterval motion, ClockInterval shutter)
+        : keys_(std::move(keys)) {
         const float span = motion.end - motion.start;
         const float n_segments = static_cast<float>(keys_.size() - 1);
         // Keys without an interval to lie in cannot move anything: the first one holds.

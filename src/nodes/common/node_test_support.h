@@ -26,12 +26,20 @@ class TestContext final : public NodeContext {
     }
     [[nodiscard]] Name node_name() const override { return "tested"; }
     [[nodiscard]] ColorInput color_input(Name) override { return ColorInput(kWhite); }
-    [[nodiscard]] bool is_linked(Name param) const override { return linked.contains(param.str()); }
-    [[nodiscard]] TextureCache& textures() override { report_bug("no textures in this test", __FILE__, __LINE__, ""); }
-    [[nodiscard]] std::optional<std::string> find_asset(std::string_view) const override { return std::nullopt; }
+    [[nodiscard]] bool is_linked(Name param) const override {
+        return linked.contains(param.str());
+    }
+    [[nodiscard]] TextureCache& textures() override {
+        report_bug("no textures in this test", __FILE__, __LINE__, "");
+    }
+    [[nodiscard]] std::optional<std::string> find_asset(std::string_view) const override {
+        return std::nullopt;
+    }
     [[nodiscard]] bool ignore_missing_textures() const override { return false; }
     [[nodiscard]] Frame frame() const override { return size; }
-    [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(NodeRef, Mat4f&) override { return nullptr; }
+    [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(NodeRef, Mat4f&) override {
+        return nullptr;
+    }
 
     /// Reports of that code.
     [[nodiscard]] std::size_t count(Code code) const {
@@ -52,7 +60,9 @@ class TestContext final : public NodeContext {
 class TestNode {
   public:
     explicit TestNode(NodeType type)
-        : type_(std::move(type)), block_(static_cast<std::byte*>(::operator new[](type_.block_size, std::align_val_t{16}))) {
+        : type_(std::move(type)),
+          block_(
+              static_cast<std::byte*>(::operator new[](type_.block_size, std::align_val_t{16}))) {
         std::memcpy(block_.get(), type_.default_block.data(), type_.block_size);
     }
 
@@ -73,7 +83,8 @@ class TestNode {
     TestNode& set_array(const char* param, std::vector<E> values, std::uint32_t n_keys = 1) {
         auto kept = std::make_shared<std::vector<E>>(std::move(values));
         kept_.push_back(kept);
-        return set(param, Array<E>{kept->data(), static_cast<std::uint32_t>(kept->size()) / n_keys, n_keys});
+        return set(param, Array<E>{kept->data(), static_cast<std::uint32_t>(kept->size()) / n_keys,
+                                   n_keys});
     }
     template <class T>
     [[nodiscard]] T get(const char* param) const {
@@ -93,8 +104,10 @@ class TestNode {
         const ParamInfo* info = type_.find(param);
         LIGHTSIEVE_ASSERT(info != nullptr, std::string("no parameter ") + param);
         bool fits = false;
-        if constexpr (IsArray<T>::value) fits = info->is_array && info->type == param_type<typename IsArray<T>::Element>();
-        else fits = !info->is_array && info->type == param_type<T>();
+        if constexpr (IsArray<T>::value)
+            fits = info->is_array && info->type == param_type<typename IsArray<T>::Element>();
+        else
+            fits = !info->is_array && info->type == param_type<T>();
         LIGHTSIEVE_ASSERT(fits, std::string("wrong type for ") + param);
         return block_.get() + info->offset;
     }

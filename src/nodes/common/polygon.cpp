@@ -7,12 +7,14 @@
 
 namespace lightsieve {
 
-void Triangulator::choose_projection(std::span<const std::uint32_t> ring, std::span<const std::uint32_t> point_of,
+void Triangulator::choose_projection(std::span<const std::uint32_t> ring,
+                                     std::span<const std::uint32_t> point_of,
                                      std::span<const Vec3f> positions) {
     // Newell's normal, relative to the first corner so that far away polygons keep their digits.
     const Vec3f o = positions[point_of[ring[0]]];
     const auto at = [&](std::size_t i, int axis) {
-        return static_cast<double>(positions[point_of[ring[i % ring.size()]]][axis]) - static_cast<double>(o[axis]);
+        return static_cast<double>(positions[point_of[ring[i % ring.size()]]][axis]) -
+               static_cast<double>(o[axis]);
     };
     std::array<double, 3> n{};
     for (std::size_t i = 0; i < ring.size(); ++i)
@@ -22,24 +24,29 @@ void Triangulator::choose_projection(std::span<const std::uint32_t> ring, std::s
         }
     // Leave out the coordinate in which the normal is largest: it keeps convexity and what lies inside what.
     int drop = 2;
-    if (std::abs(n[0]) > std::abs(n[1]) && std::abs(n[0]) > std::abs(n[2])) drop = 0;
-    else if (std::abs(n[1]) > std::abs(n[2])) drop = 1;
+    if (std::abs(n[0]) > std::abs(n[1]) && std::abs(n[0]) > std::abs(n[2]))
+        drop = 0;
+    else if (std::abs(n[1]) > std::abs(n[2]))
+        drop = 1;
     axis_x_ = (drop + 1) % 3;
     axis_y_ = (drop + 2) % 3;
     if (n[static_cast<std::size_t>(drop)] < 0) std::swap(axis_x_, axis_y_);
 }
 
-void Triangulator::add_ring(std::span<const std::uint32_t> ring, std::span<const std::uint32_t> point_of,
+void Triangulator::add_ring(std::span<const std::uint32_t> ring,
+                            std::span<const std::uint32_t> point_of,
                             std::span<const Vec3f> positions, bool hole) {
     const std::size_t from = ring_.size(), n = ring.size();
     double area = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3f p = positions[point_of[ring[i]]];
-        ring_.push_back({{static_cast<double>(p[axis_x_]), static_cast<double>(p[axis_y_])}, ring[i]});
+        ring_.push_back(
+            {{static_cast<double>(p[axis_x_]), static_cast<double>(p[axis_y_])}, ring[i]});
         if (i >= 2) area += cross(ring_[from].p, ring_[from + i - 1].p, ring_[from + i].p);
     }
     // Holes run the other way round, so that the inside is always to the left.
-    if (hole && area > 0) std::reverse(ring_.begin() + static_cast<std::ptrdiff_t>(from), ring_.end());
+    if (hole && area > 0)
+        std::reverse(ring_.begin() + static_cast<std::ptrdiff_t>(from), ring_.end());
     for (std::size_t i = 0; i < n; ++i) {
         ring_[from + i].previous = static_cast<std::uint32_t>(from + (i + n - 1) % n);
         ring_[from + i].next = static_cast<std::uint32_t>(from + (i + 1) % n);
@@ -65,7 +72,8 @@ bool Triangulator::convex() const {
 bool Triangulator::in_cone(const Vertex& at, Point toward) const {
     // Source: O'Rourke, Computational Geometry in C, 2nd edition, code 1.11.
     const Point before = ring_[at.previous].p, after = ring_[at.next].p;
-    if (cross(at.p, after, before) >= 0) return cross(at.p, toward, before) > 0 && cross(toward, at.p, after) > 0;
+    if (cross(at.p, after, before) >= 0)
+        return cross(at.p, toward, before) > 0 && cross(toward, at.p, after) > 0;
     return !(cross(at.p, toward, after) >= 0 && cross(toward, at.p, before) >= 0);
 }
 
@@ -95,8 +103,10 @@ std::int64_t Triangulator::visible_from(Point from) const {
     do {
         const Vertex& v = ring_[i];
         if (same(v.p, from)) return i;
-        const bool inside = up ? cross(from, hit, v.p) >= 0 && cross(hit, end, v.p) >= 0 && cross(end, from, v.p) >= 0
-                               : cross(from, end, v.p) >= 0 && cross(end, hit, v.p) >= 0 && cross(hit, from, v.p) >= 0;
+        const bool inside = up ? cross(from, hit, v.p) >= 0 && cross(hit, end, v.p) >= 0 &&
+                                     cross(end, from, v.p) >= 0
+                               : cross(from, end, v.p) >= 0 && cross(end, hit, v.p) >= 0 &&
+                                     cross(hit, from, v.p) >= 0;
         if (inside && v.p.x > from.x && in_cone(v, from)) {
             const double tan = std::abs(v.p.y - from.y) / (v.p.x - from.x);
             if (tan < best_tan || (tan == best_tan && v.p.x < best_x)) {
@@ -115,7 +125,8 @@ bool Triangulator::bridge(std::uint32_t hole_vertex) {
     if (found < 0) return false;
     // outer -> hole ... back to a twin of hole -> twin of outer -> what followed outer.
     const std::uint32_t outer = static_cast<std::uint32_t>(found);
-    const std::uint32_t hole_twin = static_cast<std::uint32_t>(ring_.size()), outer_twin = hole_twin + 1;
+    const std::uint32_t hole_twin = static_cast<std::uint32_t>(ring_.size()),
+                        outer_twin = hole_twin + 1;
     ring_.push_back(ring_[hole_vertex]);
     ring_.push_back(ring_[outer]);
     ring_[hole_twin].next = outer_twin;
@@ -141,7 +152,8 @@ bool Triangulator::is_ear(std::uint32_t at, Rule rule) const {
             if (a > 0 && b > 0 && c > 0) return false;
             continue;
         }
-        if (a < 0 || b < 0 || c < 0 || same(q.p, p.p) || same(q.p, v.p) || same(q.p, n.p)) continue;
+        if (a < 0 || b < 0 || c < 0 || same(q.p, p.p) || same(q.p, v.p) || same(q.p, n.p))
+            continue;
         // A corner that turns left can only be inside if one that does not is inside too.
         if (cross(ring_[q.previous].p, q.p, ring_[q.next].p) <= 0) return false;
     }
@@ -181,8 +193,10 @@ void Triangulator::clip(std::size_t n_left, std::vector<std::uint32_t>& out) {
     }
 }
 
-PolygonResult Triangulator::split(std::span<const std::span<const std::uint32_t>> rings, std::span<const std::uint32_t> point_of,
-                                  std::span<const Vec3f> positions, std::vector<std::uint32_t>& out) {
+PolygonResult Triangulator::split(std::span<const std::span<const std::uint32_t>> rings,
+                                  std::span<const std::uint32_t> point_of,
+                                  std::span<const Vec3f> positions,
+                                  std::vector<std::uint32_t>& out) {
     const std::span<const std::uint32_t> outer = rings[0];
     const std::size_t n = outer.size();
     if (n < 3) return PolygonResult::Done;
@@ -219,13 +233,16 @@ PolygonResult Triangulator::split(std::span<const std::span<const std::uint32_t>
     std::vector<std::size_t> order(rightmost.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = i;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return ring_[rightmost[a]].p.x > ring_[rightmost[b]].p.x; });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return ring_[rightmost[a]].p.x > ring_[rightmost[b]].p.x;
+    });
     std::size_t n_left = n;
     PolygonResult result = PolygonResult::Done;
     for (const std::size_t i : order) {
-        if (bridge(rightmost[i])) n_left += sizes[i] + 2;
-        else result = PolygonResult::HoleOutside;
+        if (bridge(rightmost[i]))
+            n_left += sizes[i] + 2;
+        else
+            result = PolygonResult::HoleOutside;
     }
     clip(n_left, out);
     return result;

@@ -32,8 +32,9 @@ class Triangulator {
     ///
     /// rings  the outer ring, then its holes, each as corner numbers; rings of fewer than 3 corners are skipped
     /// point  of corner number c: `positions[point_of[c]]`
-    PolygonResult split(std::span<const std::span<const std::uint32_t>> rings, std::span<const std::uint32_t> point_of,
-                        std::span<const Vec3f> positions, std::vector<std::uint32_t>& out);
+    PolygonResult split(std::span<const std::span<const std::uint32_t>> rings,
+                        std::span<const std::uint32_t> point_of, std::span<const Vec3f> positions,
+                        std::vector<std::uint32_t>& out);
 
   private:
     struct Point {
@@ -51,13 +52,16 @@ class Triangulator {
     /// How much an ear must satisfy. Simple rings never need more than the first.
     enum class Rule : std::uint8_t { Strict, NothingInside, Anything };
 
-    static double cross(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+    static double cross(Point a, Point b, Point c) {
+        return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    }
     static bool same(Point a, Point b) { return a.x == b.x && a.y == b.y; }
 
-    void choose_projection(std::span<const std::uint32_t> ring, std::span<const std::uint32_t> point_of,
+    void choose_projection(std::span<const std::uint32_t> ring,
+                           std::span<const std::uint32_t> point_of,
                            std::span<const Vec3f> positions);
-    void add_ring(std::span<const std::uint32_t> ring, std::span<const std::uint32_t> point_of, std::span<const Vec3f> positions,
-                  bool hole);
+    void add_ring(std::span<const std::uint32_t> ring, std::span<const std::uint32_t> point_of,
+                  std::span<const Vec3f> positions, bool hole);
     [[nodiscard]] bool convex() const;
     [[nodiscard]] bool in_cone(const Vertex& at, Point toward) const;
     bool bridge(std::uint32_t hole_vertex);
@@ -66,7 +70,9 @@ class Triangulator {
     void clip(std::size_t n_left, std::vector<std::uint32_t>& out);
 
     std::vector<Vertex> ring_;
-    int axis_x_ = 0, axis_y_ = 1;  ///< coordinates that the projection keeps, so that the outer ring winds to the left
+    int axis_x_ = 0,
+        axis_y_ =
+            1;  ///< coordinates that the projection keeps, so that the outer ring winds to the left
 };
 
 }  // namespace lightsieve

@@ -19,8 +19,10 @@ struct Split {
     std::vector<Vec2f> flat;
     /// Twice the signed area of triangle t, in the plane.
     [[nodiscard]] double area2(std::size_t t) const {
-        const Vec2f a = flat[corners[3 * t]], b = flat[corners[3 * t + 1]], c = flat[corners[3 * t + 2]];
-        return static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) - static_cast<double>(b.y - a.y) * static_cast<double>(c.x - a.x);
+        const Vec2f a = flat[corners[3 * t]], b = flat[corners[3 * t + 1]],
+                    c = flat[corners[3 * t + 2]];
+        return static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) -
+               static_cast<double>(b.y - a.y) * static_cast<double>(c.x - a.x);
     }
 };
 
@@ -28,7 +30,8 @@ double ring_area(const std::vector<Vec2f>& ring) {
     double sum = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2f a = ring[i], b = ring[(i + 1) % ring.size()];
-        sum += static_cast<double>(a.x) * static_cast<double>(b.y) - static_cast<double>(a.y) * static_cast<double>(b.x);
+        sum += static_cast<double>(a.x) * static_cast<double>(b.y) -
+               static_cast<double>(a.y) * static_cast<double>(b.x);
     }
     return sum / 2;
 }
@@ -62,8 +65,11 @@ void expect_exact_cover(const Case& c) {
         area -= std::abs(ring_area(c.rings[i]));
         n += c.rings[i].size() + 2;
     }
-    const std::vector<std::array<Vec3f, 2>> planes{
-        {{{1, 0, 0}, {0, 1, 0}}}, {{{0, 1, 0}, {0, 0, 1}}}, {{{0, 0, 1}, {1, 0, 0}}}, {{{0, 1, 0}, {1, 0, 0}}}, {{{0.6F, 0.8F, 0}, {0, 0.1F, -2}}}};
+    const std::vector<std::array<Vec3f, 2>> planes{{{{1, 0, 0}, {0, 1, 0}}},
+                                                   {{{0, 1, 0}, {0, 0, 1}}},
+                                                   {{{0, 0, 1}, {1, 0, 0}}},
+                                                   {{{0, 1, 0}, {1, 0, 0}}},
+                                                   {{{0.6F, 0.8F, 0}, {0, 0.1F, -2}}}};
     for (const auto& plane : planes) {
         const Split s = split(c, plane[0], plane[1], {3, -2, 5});
         EXPECT_EQ(s.result, PolygonResult::Done);
@@ -84,7 +90,9 @@ std::vector<Vec2f> reversed(std::vector<Vec2f> ring) {
 
 const std::vector<Vec2f> kL{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
 const std::vector<Vec2f> kSquare{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
-std::vector<Vec2f> square_at(float x, float y, float size) { return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}}; }
+std::vector<Vec2f> square_at(float x, float y, float size) {
+    return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
+}
 
 TEST(Polygon, ConvexOnesBecomeFans) {
     const Split s = split({{kSquare}});
@@ -146,12 +154,14 @@ TEST(Polygon, HolesAreCutOut) {
     expect_exact_cover({{kSquare, square_at(1, 4, 2), square_at(6, 4, 2)}});
     expect_exact_cover({{kSquare, square_at(4, 1, 2), square_at(4, 6, 2)}});
     std::vector<Vec2f> l;
-    for (const Vec2f p : kL) l.push_back(p * 2 + Vec2f{1, 1});
+    for (const Vec2f p : kL)
+        l.push_back(p * 2 + Vec2f{1, 1});
     expect_exact_cover({{kSquare, l, square_at(5, 5, 3)}});
     Case grid{{{{0, 0}, {100, 0}, {100, 100}, {0, 100}}}};
     for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 5; ++x)
-            grid.rings.push_back(square_at(5 + 20 * static_cast<float>(x), 5 + 20 * static_cast<float>(y), 10));
+            grid.rings.push_back(
+                square_at(5 + 20 * static_cast<float>(x), 5 + 20 * static_cast<float>(y), 10));
     expect_exact_cover(grid);
 }
 
@@ -167,20 +177,24 @@ TEST(Polygon, DegenerateRingsGiveTrianglesAndEnd) {
     EXPECT_EQ(split({{std::vector<Vec2f>(7, Vec2f{1, 1})}}).corners.size(), 15U);
     EXPECT_EQ(split({{{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1.5F, 0}}}}).corners.size(), 9U);
     std::vector<Vec2f> pentagram;
-    for (int i = 0; i < 5; ++i) pentagram.push_back({std::cos(static_cast<float>(i) * 0.8F * kPi), std::sin(static_cast<float>(i) * 0.8F * kPi)});
+    for (int i = 0; i < 5; ++i)
+        pentagram.push_back({std::cos(static_cast<float>(i) * 0.8F * kPi),
+                             std::sin(static_cast<float>(i) * 0.8F * kPi)});
     EXPECT_EQ(split({{pentagram}}).corners.size(), 9U);
     EXPECT_TRUE(split({{{{0, 0}, {1, 1}}}}).corners.empty());
     // A large random tangle: the search for ears must give up in time.
     std::mt19937 rng(3);
     std::uniform_real_distribution<float> place(0, 1);
     std::vector<Vec2f> tangle;
-    for (int i = 0; i < 1500; ++i) tangle.push_back({place(rng), place(rng)});
+    for (int i = 0; i < 1500; ++i)
+        tangle.push_back({place(rng), place(rng)});
     EXPECT_EQ(split({{tangle}}).corners.size(), 3U * 1498U);
 }
 
 TEST(Polygon, HugeConcaveOnesAreRefused) {
     std::vector<Vec2f> saw{{0, 0}};
-    for (std::size_t i = 0; i <= kMaxConcaveCorners; ++i) saw.push_back({static_cast<float>(kMaxConcaveCorners - i), i % 2 == 0 ? 5.0F : 4.0F});
+    for (std::size_t i = 0; i <= kMaxConcaveCorners; ++i)
+        saw.push_back({static_cast<float>(kMaxConcaveCorners - i), i % 2 == 0 ? 5.0F : 4.0F});
     const Split s = split({{saw}});
     EXPECT_EQ(s.result, PolygonResult::TooLarge);
     EXPECT_TRUE(s.corners.empty());

@@ -18,16 +18,22 @@ struct Checkerboard {
 };
 
 NodeType Checkerboard::describe() {
-    Describe<Checkerboard> d("checkerboard", NodeKind::Shader, "Two colours in the cells of a checkerboard.");
+    Describe<Checkerboard> d("checkerboard", NodeKind::Shader,
+                             "Two colours in the cells of a checkerboard.");
     d.param("color1", &Checkerboard::color1, "Colour of the odd cells.");
-    d.param("color2", &Checkerboard::color2, "Colour of the even cells, among them the one at the origin.");
+    d.param("color2", &Checkerboard::color2,
+            "Colour of the even cells, among them the one at the origin.");
     d.param("u_frequency", &Checkerboard::u_frequency, "Pairs of cells a unit of u.");
     d.param("v_frequency", &Checkerboard::v_frequency, "Pairs of cells a unit of v.");
     d.param("u_offset", &Checkerboard::u_offset, "Added to u.");
     d.param("v_offset", &Checkerboard::v_offset, "Added to v.");
-    d.param("contrast", &Checkerboard::contrast, "0: both cells have the mean colour.").range(0, 1);
-    d.param("filter_strength", &Checkerboard::filter_strength, "Factor on the width over which cells are averaged.").range(0, 1);
-    d.param("uvset", &Checkerboard::uvset, "Set of texture coordinates; empty: the first.").pending();
+    d.param("contrast", &Checkerboard::contrast, "0: both cells have the mean colour.")
+        .range(0, 1);
+    d.param("filter_strength", &Checkerboard::filter_strength,
+            "Factor on the width over which cells are averaged.")
+        .range(0, 1);
+    d.param("uvset", &Checkerboard::uvset, "Set of texture coordinates; empty: the first.")
+        .pending();
     return d.done();
 }
 
@@ -50,7 +56,8 @@ Color Checkerboard::eval(const ShadePoint& at) const {
     // c = floor(2 n u) + floor(2 m v): even is color2, odd is color1.
     const float nu = 2 * u_frequency, nv = 2 * v_frequency;
     const float width = std::fmax(at.uv_width * filter_strength, 0.0F);
-    const float even = parity_mean(nu * (at.uv.x + u_offset), std::abs(nu) * width) * parity_mean(nv * (at.uv.y + v_offset), std::abs(nv) * width);
+    const float even = parity_mean(nu * (at.uv.x + u_offset), std::abs(nu) * width) *
+                       parity_mean(nv * (at.uv.y + v_offset), std::abs(nv) * width);
     if (!std::isfinite(even)) return lerp(color1, color2, 0.5F);
     return lerp(color1, color2, 0.5F + 0.5F * contrast * even);
 }

@@ -16,7 +16,8 @@ struct Lambert {
         Describe<Lambert> d("lambert", NodeKind::Shader, "Ideal diffuse reflection.");
         d.param("Kd", &Lambert::Kd, "Weight of the diffuse lobe.").range(0, 1);
         d.param("Kd_color", &Lambert::Kd_color, "Reflectance.").range(0, 1);
-        d.param("opacity", &Lambert::opacity, "Below 1, rays pass straight through for the rest.").range(0, 1);
+        d.param("opacity", &Lambert::opacity, "Below 1, rays pass straight through for the rest.")
+            .range(0, 1);
         d.param("normal", &Lambert::normal, "Shading normal, world space; acts when linked.");
         d.lobe(0, EventKind::Reflection, EventLobe::Diffuse, "", "Diffuse reflection.");
         return d.done();
@@ -30,7 +31,8 @@ struct Lambert {
         const Color visible = unit(opacity);
         out.transparent(kWhite - visible);
         std::uint8_t frame = 0;
-        if (!(normal == Vec3f{})) frame = out.add_frame(Frame::from_z_x(shading_normal(at, normal), at.tangent));
+        if (!(normal == Vec3f{}))
+            frame = out.add_frame(Frame::from_z_x(shading_normal(at, normal), at.tangent));
         out.add(0, DiffuseReflect(positive(Kd) * positive(Kd_color)), visible, frame, true);
     }
 };

@@ -12,10 +12,15 @@ struct Matte {
     ShaderRef passthrough;
 
     static NodeType describe() {
-        Describe<Matte> d("matte", NodeKind::Shader, "A hole in the picture: a colour, by default black, with an alpha of its own, by default 0.");
+        Describe<Matte> d("matte", NodeKind::Shader,
+                          "A hole in the picture: a colour, by default black, with an alpha of "
+                          "its own, by default 0.");
         d.param("color", &Matte::color, "What is seen, unlit, and its alpha.");
-        d.param("opacity", &Matte::opacity, "Below 1, rays pass straight through for the rest.").range(0, 1);
-        d.param("passthrough", &Matte::passthrough, "Shader that is run for the AOVs that it writes.").pending();
+        d.param("opacity", &Matte::opacity, "Below 1, rays pass straight through for the rest.")
+            .range(0, 1);
+        d.param("passthrough", &Matte::passthrough,
+                "Shader that is run for the AOVs that it writes.")
+            .pending();
         d.lobe(0, EventKind::Object, EventLobe::None, "", "The colour.");
         return d.done();
     }

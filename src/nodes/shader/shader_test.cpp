@@ -26,10 +26,13 @@ struct Shaded {
     ClosureSet set;
 };
 
-Color value(const TestNode& node, const ShadePoint& at = {}) { return node.type().eval_value(node.block(), at).rgb; }
+Color value(const TestNode& node, const ShadePoint& at = {}) {
+    return node.type().eval_value(node.block(), at).rgb;
+}
 
 void expect_color(Color is, Color expected, double tolerance = 1e-6) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(is[i], expected[i], tolerance) << "channel " << i;
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(is[i], expected[i], tolerance) << "channel " << i;
 }
 
 ShadePoint at_uv(float u, float v, float width = 0) {
@@ -44,7 +47,8 @@ TEST(Checkerboard, CellsHaveTheParityOfTheirNumbers) {
     const Color odd{1, 0.5F, 0}, even{0, 0.25F, 1};
     node.set("color1", odd).set("color2", even).set("u_frequency", 4.0F).set("v_frequency", 10.0F);
     for (int i = 0; i < 200; ++i) {
-        const float u = -1.3F + 0.0171F * static_cast<float>(i), v = 2.1F - 0.0273F * static_cast<float>(i);
+        const float u = -1.3F + 0.0171F * static_cast<float>(i),
+                    v = 2.1F - 0.0273F * static_cast<float>(i);
         const long c = std::lround(std::floor(2 * 4 * u)) + std::lround(std::floor(2 * 10 * v));
         EXPECT_EQ(value(node, at_uv(u, v)), c % 2 == 0 ? even : odd) << u << " " << v;
     }
@@ -59,7 +63,10 @@ TEST(Checkerboard, WideFootprintsSeeTheMean) {
         double mean = 0;
         for (int i = 0; i < 400; ++i)
             for (int j = 0; j < 400; ++j)
-                mean += static_cast<double>(value(node, at_uv(uv.x + width * (static_cast<float>(i) + 0.5F - 200) / 400, uv.y + width * (static_cast<float>(j) + 0.5F - 200) / 400)).r);
+                mean += static_cast<double>(
+                    value(node, at_uv(uv.x + width * (static_cast<float>(i) + 0.5F - 200) / 400,
+                                      uv.y + width * (static_cast<float>(j) + 0.5F - 200) / 400))
+                        .r);
         EXPECT_NEAR(value(node, at_uv(uv.x, uv.y, width)).r, mean / 160000, 0.01);
     }
     EXPECT_NEAR(value(node, at_uv(0.3F, 0.1F, 1000)).r, 0.5, 0.01);
@@ -140,8 +147,11 @@ TEST(Utility, ColorModes) {
     node.set_enum("shade_mode", 2);
     const ParamInfo& modes = *node.type().find("color_mode");
     const std::vector<std::pair<std::string, Color>> rows{
-        {"color", {1, 1, 1}}, {"ng", {0.5F, 0.5F, 1}}, {"ns", {0.8F, 0.5F, 0.9F}}, {"n", {0.8F, 0.5F, 0.9F}}, {"bary", {0.2F, 0.3F, 0.5F}},
-        {"uv", {0.25F, 0.75F, 0}}, {"u", {0.25F, 0.25F, 0.25F}}, {"v", {0.75F, 0.75F, 0.75F}}, {"dpdu", {0.5F, 1, 0.5F}}, {"p", {3, 4, 5}}};
+        {"color", {1, 1, 1}},         {"ng", {0.5F, 0.5F, 1}},
+        {"ns", {0.8F, 0.5F, 0.9F}},   {"n", {0.8F, 0.5F, 0.9F}},
+        {"bary", {0.2F, 0.3F, 0.5F}}, {"uv", {0.25F, 0.75F, 0}},
+        {"u", {0.25F, 0.25F, 0.25F}}, {"v", {0.75F, 0.75F, 0.75F}},
+        {"dpdu", {0.5F, 1, 0.5F}},    {"p", {3, 4, 5}}};
     for (const auto& [mode, color] : rows) {
         const auto found = std::find(modes.enumerators.begin(), modes.enumerators.end(), mode);
         ASSERT_NE(found, modes.enumerators.end()) << mode;

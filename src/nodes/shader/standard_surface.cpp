@@ -16,7 +16,16 @@ namespace {
 enum class SubsurfaceType : std::int32_t { Diffusion, Randomwalk, RandomwalkV2 };
 
 /// Indices of the lobes, in the order of description.
-enum Lobes : int { kDiffuse, kSheen, kSpecular, kMetal, kCoat, kTransmission, kSubsurface, kEmission };
+enum Lobes : int {
+    kDiffuse,
+    kSheen,
+    kSpecular,
+    kMetal,
+    kCoat,
+    kTransmission,
+    kSubsurface,
+    kEmission
+};
 
 struct StandardSurface {
     float base = 1;
@@ -24,12 +33,14 @@ struct StandardSurface {
     float diffuse_roughness = 0, metalness = 0;
     float specular = 1;
     Color specular_color{1, 1, 1};
-    float specular_roughness = 0.2F, specular_IOR = 1.5F, specular_anisotropy = 0, specular_rotation = 0;
+    float specular_roughness = 0.2F, specular_IOR = 1.5F, specular_anisotropy = 0,
+          specular_rotation = 0;
     float transmission = 0;
     Color transmission_color{1, 1, 1};
     float transmission_depth = 0;
     Color transmission_scatter{0, 0, 0};
-    float transmission_scatter_anisotropy = 0, transmission_dispersion = 0, transmission_extra_roughness = 0;
+    float transmission_scatter_anisotropy = 0, transmission_dispersion = 0,
+          transmission_extra_roughness = 0;
     float transmission_shadow_density = 0.5F;
     bool transmit_aovs = false;
     std::int32_t dielectric_priority = 0;
@@ -85,7 +96,9 @@ class Layering {
         // Seen from inside of a transparent body the coat only tints: its reflection is on the other side.
         if (!inside_) {
             const Oriented frame = oriented(s_.coat_normal, s_.coat_anisotropy, s_.coat_rotation);
-            const LobeModel model = reflection(GgxAlpha::from_roughness(unit(s_.coat_roughness), s_.coat_anisotropy), s_.coat_IOR);
+            const LobeModel model =
+                reflection(GgxAlpha::from_roughness(unit(s_.coat_roughness), s_.coat_anisotropy),
+                           s_.coat_IOR);
             through *= complement(kWhite, model, frame);
             out_.add(kCoat, model, left_ * coat_, frame.index, s_.caustics);
         }
@@ -103,7 +116,9 @@ class Layering {
         if (metalness > 0) {
             const Color reflectivity = unit(positive(s_.base) * positive(s_.base_color));
             const Color edge_tint = unit(positive(s_.specular) * positive(s_.specular_color));
-            out_.add(kMetal, ConductorReflect::from_artistic(specular_alpha(roughness(0)), reflectivity, edge_tint),
+            out_.add(kMetal,
+                     ConductorReflect::from_artistic(specular_alpha(roughness(0)), reflectivity,
+                                                     edge_tint),
                      left_ * metalness, specular_frame().index, s_.caustics);
         }
         left_ *= 1 - metalness;
@@ -115,7 +130,8 @@ class Layering {
         if (is_black(weight) || is_black(left_)) return;
         const LobeModel model = reflection(specular_alpha(roughness(0)), relative_ior());
         const Oriented frame = specular_frame();
-        if (!inside_ || s_.internal_reflections) out_.add(kSpecular, model, left_ * weight, frame.index, s_.caustics);
+        if (!inside_ || s_.internal_reflections)
+            out_.add(kSpecular, model, left_ * weight, frame.index, s_.caustics);
         left_ *= complement(weight, model, frame);
     }
 
@@ -124,7 +140,9 @@ class Layering {
         if (transmission_ > 0 && !is_black(left_)) {
             const Color weight = left_ * (transmission_ * positive(s_.transmission_color));
             const GgxAlpha alpha = specular_alpha(roughness(s_.transmission_extra_roughness));
-            const LobeModel model = s_.thin_walled ? LobeModel(ThinTransmit(alpha)) : LobeModel(DielectricTransmit(alpha, relative_ior()));
+            const LobeModel model = s_.thin_walled
+                                        ? LobeModel(ThinTransmit(alpha))
+                                        : LobeModel(DielectricTransmit(alpha, relative_ior()));
             out_.add(kTransmission, model, weight, specular_frame().index, s_.caustics);
         }
         left_ *= 1 - transmission_;
@@ -135,7 +153,8 @@ class Layering {
         const float sheen = unit(s_.sheen);
         if (!(sheen > 0) || is_black(left_)) return;
         const LobeModel model = SheenReflect(s_.sheen_roughness);
-        out_.add(kSheen, model, left_ * (sheen * positive(s_.sheen_color)), base_.index, s_.caustics);
+        out_.add(kSheen, model, left_ * (sheen * positive(s_.sheen_color)), base_.index,
+                 s_.caustics);
         left_ *= complement(Color::grey(sheen), model, base_);
     }
 
@@ -146,11 +165,13 @@ class Layering {
         // Rough diffuse reflection depends on its colour, so the colour is the model's and not the weight's.
         const Color reflectance = positive(s_.base) * darkened(s_.base_color);
         if (subsurface < 1 && !is_black(reflectance))
-            out_.add(kDiffuse, DiffuseReflect(reflectance, s_.diffuse_roughness), left_ * (1 - subsurface), base_.index, true);
+            out_.add(kDiffuse, DiffuseReflect(reflectance, s_.diffuse_roughness),
+                     left_ * (1 - subsurface), base_.index, true);
         if (!(subsurface > 0)) return;
         const Color color = darkened(s_.subsurface_color);
-        const LobeModel model = s_.thin_walled ? LobeModel(DiffuseTransmit(color, s_.diffuse_roughness))
-                                               : LobeModel(DiffuseReflect(color, s_.diffuse_roughness));
+        const LobeModel model = s_.thin_walled
+                                    ? LobeModel(DiffuseTransmit(color, s_.diffuse_roughness))
+                                    : LobeModel(DiffuseReflect(color, s_.diffuse_roughness));
         out_.add(kSubsurface, model, left_ * subsurface, base_.index, true);
     }
 
@@ -164,7 +185,8 @@ class Layering {
     /// Frame around the parameter's normal (0 0 0: the hit's), its x axis turned for anisotropy.
     [[nodiscard]] Oriented oriented(Vec3f linked_normal, float anisotropy, float rotation) {
         const bool own_normal = !(linked_normal == Vec3f{});
-        if (!own_normal && !(anisotropy > 0)) return {0, local_wo({at_.tangent, cross(at_.normal, at_.tangent), at_.normal})};
+        if (!own_normal && !(anisotropy > 0))
+            return {0, local_wo({at_.tangent, cross(at_.normal, at_.tangent), at_.normal})};
         const Vec3f n = shading_normal(at_, linked_normal);
         Frame frame = Frame::from_z_x(n, s_.tangent == Vec3f{} ? at_.tangent : s_.tangent);
         // A full turn for rotation = 1, from x toward -y: standard_surface's OSL reference.
@@ -179,7 +201,8 @@ class Layering {
     }
     [[nodiscard]] Oriented specular_frame() {
         if (!(s_.specular_anisotropy > 0)) return base_;
-        if (!has_specular_frame_) specular_ = oriented(s_.normal, s_.specular_anisotropy, s_.specular_rotation);
+        if (!has_specular_frame_)
+            specular_ = oriented(s_.normal, s_.specular_anisotropy, s_.specular_rotation);
         has_specular_frame_ = true;
         return specular_;
     }
@@ -189,18 +212,24 @@ class Layering {
         const float affect = coat_ * unit(s_.coat_affect_roughness) * unit(s_.coat_roughness);
         return lerp(unit(s_.specular_roughness + extra), 1.0F, affect);
     }
-    [[nodiscard]] GgxAlpha specular_alpha(float r) const { return GgxAlpha::from_roughness(r, s_.specular_anisotropy); }
+    [[nodiscard]] GgxAlpha specular_alpha(float r) const {
+        return GgxAlpha::from_roughness(r, s_.specular_anisotropy);
+    }
     /// n(far side) / n(side of wo).
-    [[nodiscard]] float relative_ior() const { return inside_ ? 1 / s_.specular_IOR : s_.specular_IOR; }
+    [[nodiscard]] float relative_ior() const {
+        return inside_ ? 1 / s_.specular_IOR : s_.specular_IOR;
+    }
 
     /// Fresnel reflection. Tables of dielectrics end at kMaxEta; mirrors are made with larger indices, and those are
     /// metals without extinction.
     [[nodiscard]] static LobeModel reflection(GgxAlpha alpha, float eta) {
-        if (eta > kMaxEta && std::isfinite(eta)) return ConductorReflect(alpha, Color::grey(eta), kBlack);
+        if (eta > kMaxEta && std::isfinite(eta))
+            return ConductorReflect(alpha, Color::grey(eta), kBlack);
         return DielectricReflect(alpha, eta);
     }
     /// 1 - weight * R, R the lobe's directional albedo.
-    [[nodiscard]] static Color complement(Color weight, const LobeModel& model, const Oriented& frame) {
+    [[nodiscard]] static Color complement(Color weight, const LobeModel& model,
+                                          const Oriented& frame) {
         const Color r = std::visit([&](const auto& lobe) { return lobe.albedo(frame.wo); }, model);
         return unit(kWhite - weight * r);
     }
@@ -241,10 +270,13 @@ void StandardSurface::prepare(NodeContext& context) {
     if (!context.is_linked("coat_normal")) coat_normal = {};
     if (!context.is_linked("tangent")) tangent = {};
     if ((subsurface > 0 || context.is_linked("subsurface")) && !thin_walled)
-        context.diagnostics().warning(Code::ParamPending,
-                                      "subsurface scattering is not supported yet: its part of the surface is shown as diffuse "
-                                      "reflection of subsurface_color",
-                                      context.where("subsurface"), "its light stays in the AOVs of subsurface scattering (event TD)");
+        context.diagnostics().warning(
+            Code::ParamPending,
+            "subsurface scattering is not supported yet: its part of the surface is shown as "
+            "diffuse "
+            "reflection of subsurface_color",
+            context.where("subsurface"),
+            "its light stays in the AOVs of subsurface scattering (event TD)");
 }
 
 // Parameters --------------------------------------------------------------------------------------------------------
@@ -253,41 +285,83 @@ using S = StandardSurface;
 
 void describe_base(Describe<S>& d) {
     d.param("base", &S::base, "Weight of the diffuse base and of the metal's colour.").range(0, 1);
-    d.param("base_color", &S::base_color, "Reflectance of the diffuse base, or of the metal seen face on.").range(0, 1);
-    d.param("diffuse_roughness", &S::diffuse_roughness, "0: Lambert; up to 1: rougher, like clay.").range(0, 1);
+    d.param("base_color", &S::base_color,
+            "Reflectance of the diffuse base, or of the metal seen face on.")
+        .range(0, 1);
+    d.param("diffuse_roughness", &S::diffuse_roughness, "0: Lambert; up to 1: rougher, like clay.")
+        .range(0, 1);
     d.param("metalness", &S::metalness, "Mix from a dielectric (0) to a metal (1).").range(0, 1);
     d.param("specular", &S::specular, "Weight of the specular reflection.").range(0, 1);
-    d.param("specular_color", &S::specular_color, "Tint of the specular reflection; of metals at the edge.").range(0, 1);
-    d.param("specular_roughness", &S::specular_roughness, "0: a mirror. The width of the microfacets is its square.").range(0, 1);
+    d.param("specular_color", &S::specular_color,
+            "Tint of the specular reflection; of metals at the edge.")
+        .range(0, 1);
+    d.param("specular_roughness", &S::specular_roughness,
+            "0: a mirror. The width of the microfacets is its square.")
+        .range(0, 1);
     d.param("specular_IOR", &S::specular_IOR, "Index of refraction.").range(1, 3);
-    d.param("specular_anisotropy", &S::specular_anisotropy, "Stretches highlights across the tangent.").range(0, 1);
-    d.param("specular_rotation", &S::specular_rotation, "Turns the direction of anisotropy.").unit("turns").range(0, 1);
+    d.param("specular_anisotropy", &S::specular_anisotropy,
+            "Stretches highlights across the tangent.")
+        .range(0, 1);
+    d.param("specular_rotation", &S::specular_rotation, "Turns the direction of anisotropy.")
+        .unit("turns")
+        .range(0, 1);
 }
 
 void describe_transmission(Describe<S>& d) {
-    d.param("transmission", &S::transmission, "Mix from the diffuse base (0) to a clear body (1).").range(0, 1);
-    d.param("transmission_color", &S::transmission_color, "Tint at each crossing of the surface.").range(0, 1);
-    d.param("transmission_depth", &S::transmission_depth, "Depth at which the interior has transmission_color.").unit("scene units").pending();
-    d.param("transmission_scatter", &S::transmission_scatter, "Scattering coefficient of the interior.").unit("1/scene units").pending();
-    d.param("transmission_scatter_anisotropy", &S::transmission_scatter_anisotropy, "Mean cosine of that scattering; acts with transmission_scatter.").ignored();
-    d.param("transmission_dispersion", &S::transmission_dispersion, "Abbe number; 0: no dispersion.").pending();
-    d.param("transmission_extra_roughness", &S::transmission_extra_roughness, "Added to specular_roughness for transmission.").range(-1, 1);
-    d.param("transmission_shadow_density", &S::transmission_shadow_density, "Arnold's darkness of shadows of clear bodies.").ignored();
-    d.param("transmit_aovs", &S::transmit_aovs, "AOVs and alpha pass through as if the surface were a hole.").pending();
-    d.param("dielectric_priority", &S::dielectric_priority, "Which of overlapping bodies wins.").pending();
+    d.param("transmission", &S::transmission, "Mix from the diffuse base (0) to a clear body (1).")
+        .range(0, 1);
+    d.param("transmission_color", &S::transmission_color, "Tint at each crossing of the surface.")
+        .range(0, 1);
+    d.param("transmission_depth", &S::transmission_depth,
+            "Depth at which the interior has transmission_color.")
+        .unit("scene units")
+        .pending();
+    d.param("transmission_scatter", &S::transmission_scatter,
+            "Scattering coefficient of the interior.")
+        .unit("1/scene units")
+        .pending();
+    d.param("transmission_scatter_anisotropy", &S::transmission_scatter_anisotropy,
+            "Mean cosine of that scattering; acts with transmission_scatter.")
+        .ignored();
+    d.param("transmission_dispersion", &S::transmission_dispersion,
+            "Abbe number; 0: no dispersion.")
+        .pending();
+    d.param("transmission_extra_roughness", &S::transmission_extra_roughness,
+            "Added to specular_roughness for transmission.")
+        .range(-1, 1);
+    d.param("transmission_shadow_density", &S::transmission_shadow_density,
+            "Arnold's darkness of shadows of clear bodies.")
+        .ignored();
+    d.param("transmit_aovs", &S::transmit_aovs,
+            "AOVs and alpha pass through as if the surface were a hole.")
+        .pending();
+    d.param("dielectric_priority", &S::dielectric_priority, "Which of overlapping bodies wins.")
+        .pending();
 }
 
 void describe_subsurface_and_sheen(Describe<S>& d) {
-    d.param("subsurface", &S::subsurface, "Mix from diffuse reflection to subsurface scattering; thin_walled: to diffuse transmission.").range(0, 1);
-    d.param("subsurface_color", &S::subsurface_color, "Reflectance of subsurface scattering.").range(0, 1);
-    d.param("subsurface_radius", &S::subsurface_radius, "Mean free path a channel; acts with random walks, which are not supported yet.").ignored();
+    d.param("subsurface", &S::subsurface,
+            "Mix from diffuse reflection to subsurface scattering; thin_walled: to diffuse "
+            "transmission.")
+        .range(0, 1);
+    d.param("subsurface_color", &S::subsurface_color, "Reflectance of subsurface scattering.")
+        .range(0, 1);
+    d.param("subsurface_radius", &S::subsurface_radius,
+            "Mean free path a channel; acts with random walks, which are not supported yet.")
+        .ignored();
     d.param("subsurface_scale", &S::subsurface_scale, "Factor on subsurface_radius.").ignored();
-    d.param("subsurface_anisotropy", &S::subsurface_anisotropy, "Mean cosine of the scattering; acts with random walks.").ignored();
-    d.param("subsurface_type", &S::subsurface_type, "Method; acts with random walks.").names({"diffusion", "randomwalk", "randomwalk_v2"}).ignored();
+    d.param("subsurface_anisotropy", &S::subsurface_anisotropy,
+            "Mean cosine of the scattering; acts with random walks.")
+        .ignored();
+    d.param("subsurface_type", &S::subsurface_type, "Method; acts with random walks.")
+        .names({"diffusion", "randomwalk", "randomwalk_v2"})
+        .ignored();
     d.param("sheen", &S::sheen, "Weight of the glow of cloth.").range(0, 1);
     d.param("sheen_color", &S::sheen_color, "Tint of the sheen.").range(0, 1);
-    d.param("sheen_roughness", &S::sheen_roughness, "How far the sheen spreads from the edge.").range(0, 1);
-    d.param("thin_walled", &S::thin_walled, "The surface is a sheet without an interior: transmission does not bend.");
+    d.param("sheen_roughness", &S::sheen_roughness, "How far the sheen spreads from the edge.")
+        .range(0, 1);
+    d.param("thin_walled", &S::thin_walled,
+            "The surface is a sheet without an interior: transmission does not bend.");
 }
 
 void describe_coat(Describe<S>& d) {
@@ -295,26 +369,44 @@ void describe_coat(Describe<S>& d) {
     d.param("coat_color", &S::coat_color, "Tint of what is seen through the coat.").range(0, 1);
     d.param("coat_roughness", &S::coat_roughness, "Roughness of the coat.").range(0, 1);
     d.param("coat_IOR", &S::coat_IOR, "Index of refraction of the coat.").range(1, 3);
-    d.param("coat_anisotropy", &S::coat_anisotropy, "Stretches highlights of the coat.").range(0, 1);
-    d.param("coat_rotation", &S::coat_rotation, "Turns the direction of the coat's anisotropy.").unit("turns").range(0, 1);
+    d.param("coat_anisotropy", &S::coat_anisotropy, "Stretches highlights of the coat.")
+        .range(0, 1);
+    d.param("coat_rotation", &S::coat_rotation, "Turns the direction of the coat's anisotropy.")
+        .unit("turns")
+        .range(0, 1);
     d.param("coat_normal", &S::coat_normal, "Normal of the coat, world space; acts when linked.");
-    d.param("coat_affect_color", &S::coat_affect_color, "How much the coat saturates the diffuse colours below.").range(0, 1);
-    d.param("coat_affect_roughness", &S::coat_affect_roughness, "How much the coat's roughness blurs the specular layers below.").range(0, 1);
-    d.param("thin_film_thickness", &S::thin_film_thickness, "Thickness of an iridescent film; 0: none.").unit("nm").pending();
-    d.param("thin_film_IOR", &S::thin_film_IOR, "Index of refraction of the film; acts with thin_film_thickness.").ignored();
+    d.param("coat_affect_color", &S::coat_affect_color,
+            "How much the coat saturates the diffuse colours below.")
+        .range(0, 1);
+    d.param("coat_affect_roughness", &S::coat_affect_roughness,
+            "How much the coat's roughness blurs the specular layers below.")
+        .range(0, 1);
+    d.param("thin_film_thickness", &S::thin_film_thickness,
+            "Thickness of an iridescent film; 0: none.")
+        .unit("nm")
+        .pending();
+    d.param("thin_film_IOR", &S::thin_film_IOR,
+            "Index of refraction of the film; acts with thin_film_thickness.")
+        .ignored();
 }
 
 void describe_rest(Describe<S>& d) {
     d.param("emission", &S::emission, "Weight of the emission.").range(0, kInfinity);
     d.param("emission_color", &S::emission_color, "Radiance emitted, seen through the coat.");
-    d.param("opacity", &S::opacity, "Below 1, rays pass straight through for the rest.").range(0, 1);
+    d.param("opacity", &S::opacity, "Below 1, rays pass straight through for the rest.")
+        .range(0, 1);
     d.param("normal", &S::normal, "Shading normal, world space; acts when linked.");
     d.param("tangent", &S::tangent, "Direction of anisotropy, world space; acts when linked.");
     d.param("caustics", &S::caustics, "Specular lobes are also seen by diffuse rays.");
-    d.param("internal_reflections", &S::internal_reflections, "Rays inside of a clear body are reflected.");
-    d.param("exit_to_background", &S::exit_to_background, "Rays past their depth limit see the background instead of black.");
-    d.param("indirect_diffuse", &S::indirect_diffuse, "Factor on indirect light of diffuse lobes.").pending();
-    d.param("indirect_specular", &S::indirect_specular, "Factor on indirect light of specular lobes.").pending();
+    d.param("internal_reflections", &S::internal_reflections,
+            "Rays inside of a clear body are reflected.");
+    d.param("exit_to_background", &S::exit_to_background,
+            "Rays past their depth limit see the background instead of black.");
+    d.param("indirect_diffuse", &S::indirect_diffuse, "Factor on indirect light of diffuse lobes.")
+        .pending();
+    d.param("indirect_specular", &S::indirect_specular,
+            "Factor on indirect light of specular lobes.")
+        .pending();
     d.param("aov_id1", &S::aov_id1, "AOV into which id1 is written.").pending();
     d.param("id1", &S::id1, "Colour for aov_id1.").ignored();
     d.param("aov_id2", &S::aov_id2, "AOV into which id2 is written.").pending();
@@ -334,19 +426,24 @@ void describe_rest(Describe<S>& d) {
 }
 
 NodeType StandardSurface::describe() {
-    Describe<S> d("standard_surface", NodeKind::Shader, "A layered surface: coat, metal, specular, transmission, sheen, diffuse.");
+    Describe<S> d("standard_surface", NodeKind::Shader,
+                  "A layered surface: coat, metal, specular, transmission, sheen, diffuse.");
     describe_base(d);
     describe_transmission(d);
     describe_subsurface_and_sheen(d);
     describe_coat(d);
     describe_rest(d);
-    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "", "Diffuse reflection of the base.");
+    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "",
+           "Diffuse reflection of the base.");
     d.lobe(kSheen, EventKind::Reflection, EventLobe::Specular, "sheen", "Sheen.");
-    d.lobe(kSpecular, EventKind::Reflection, EventLobe::Specular, "", "Specular reflection, also inside of clear bodies.");
+    d.lobe(kSpecular, EventKind::Reflection, EventLobe::Specular, "",
+           "Specular reflection, also inside of clear bodies.");
     d.lobe(kMetal, EventKind::Reflection, EventLobe::Specular, "", "Reflection of metal.");
     d.lobe(kCoat, EventKind::Reflection, EventLobe::Specular, "coat", "Reflection of the coat.");
-    d.lobe(kTransmission, EventKind::Transmission, EventLobe::Specular, "", "Refraction, or straight transmission of thin walls.");
-    d.lobe(kSubsurface, EventKind::Transmission, EventLobe::Diffuse, "", "Subsurface scattering, or diffuse transmission of thin walls.");
+    d.lobe(kTransmission, EventKind::Transmission, EventLobe::Specular, "",
+           "Refraction, or straight transmission of thin walls.");
+    d.lobe(kSubsurface, EventKind::Transmission, EventLobe::Diffuse, "",
+           "Subsurface scattering, or diffuse transmission of thin walls.");
     d.lobe(kEmission, EventKind::Object, EventLobe::None, "", "Emission.");
     return d.done();
 }

@@ -14,7 +14,17 @@ NodeType node_standard_surface();
 
 namespace {
 
-enum Lobe { kDiffuse, kSheen, kSpecular, kMetal, kCoat, kTransmission, kSubsurface, kEmission, kLobes };
+enum Lobe {
+    kDiffuse,
+    kSheen,
+    kSpecular,
+    kMetal,
+    kCoat,
+    kTransmission,
+    kSubsurface,
+    kEmission,
+    kLobes
+};
 
 /// A hit seen under the given cosine, from outside unless said otherwise.
 ShadePoint hit(double cos_view, bool entering = true) {
@@ -37,8 +47,12 @@ struct Shaded {
     }
     [[nodiscard]] bool has(int lobe) const { return index.contains(lobe); }
     [[nodiscard]] const Closure& closure(int lobe) const { return set.closures()[index.at(lobe)]; }
-    [[nodiscard]] Color weight(int lobe) const { return has(lobe) ? closure(lobe).weight : kBlack; }
-    [[nodiscard]] Color emitted() const { return set.emissions().empty() ? kBlack : set.emissions()[0].radiance; }
+    [[nodiscard]] Color weight(int lobe) const {
+        return has(lobe) ? closure(lobe).weight : kBlack;
+    }
+    [[nodiscard]] Color emitted() const {
+        return set.emissions().empty() ? kBlack : set.emissions()[0].radiance;
+    }
     [[nodiscard]] Color total_albedo() const {
         Color sum = set.transparency();
         for (std::size_t i = 0; i < set.closures().size(); ++i)
@@ -61,7 +75,8 @@ double fresnel(double cos_i, double eta) {
     const double sin_t = std::sqrt(1 - cos_i * cos_i) / eta;
     if (sin_t >= 1) return 1;
     const double cos_t = std::sqrt(1 - sin_t * sin_t);
-    const double s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t), p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    const double s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t),
+                 p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
     return (s * s + p * p) / 2;
 }
 
@@ -78,26 +93,38 @@ TEST(StandardSurface, DefaultIsDiffuseBelowSpecular) {
         expect_color(s.weight(kSpecular), kWhite);
         // base_color is the model's; the weight is what the specular layer lets through.
         expect_color(s.weight(kDiffuse), Color::grey(static_cast<float>(1 - fresnel(c, 1.5))));
-        expect_color(s.set.albedo(s.index.at(kDiffuse)), Color::grey(static_cast<float>(0.8 * (1 - fresnel(c, 1.5)))));
+        expect_color(s.set.albedo(s.index.at(kDiffuse)),
+                     Color::grey(static_cast<float>(0.8 * (1 - fresnel(c, 1.5)))));
         EXPECT_TRUE(is_black(s.set.transparency()));
         EXPECT_TRUE(is_black(s.emitted()));
     }
 }
 
 TEST(StandardSurface, AllLayersAreWeightedAsSpecified) {
-    const float coat = 0.6F, metalness = 0.3F, specular = 0.9F, transmission = 0.4F, subsurface = 0.25F, emission = 2;
-    const Color opacity{0.9F, 0.8F, 0.7F}, coat_color{0.5F, 0.9F, 1}, specular_color{1, 0.6F, 0.3F}, transmission_color{0.2F, 0.7F, 1};
+    const float coat = 0.6F, metalness = 0.3F, specular = 0.9F, transmission = 0.4F,
+                subsurface = 0.25F, emission = 2;
+    const Color opacity{0.9F, 0.8F, 0.7F}, coat_color{0.5F, 0.9F, 1},
+        specular_color{1, 0.6F, 0.3F}, transmission_color{0.2F, 0.7F, 1};
     const Color emission_color{1, 0.5F, 0.25F};
     TestNode node = smooth_surface();
-    node.set("opacity", opacity).set("coat", coat).set("coat_color", coat_color).set("coat_IOR", 1.3F).set("metalness", metalness);
+    node.set("opacity", opacity)
+        .set("coat", coat)
+        .set("coat_color", coat_color)
+        .set("coat_IOR", 1.3F)
+        .set("metalness", metalness);
     node.set("specular", specular).set("specular_color", specular_color).set("specular_IOR", 1.7F);
-    node.set("transmission", transmission).set("transmission_color", transmission_color).set("subsurface", subsurface);
-    node.set("subsurface_color", Color{0.9F, 0.3F, 0.1F}).set("emission", emission).set("emission_color", emission_color);
+    node.set("transmission", transmission)
+        .set("transmission_color", transmission_color)
+        .set("subsurface", subsurface);
+    node.set("subsurface_color", Color{0.9F, 0.3F, 0.1F})
+        .set("emission", emission)
+        .set("emission_color", emission_color);
     node.set("thin_walled", true);
 
     const double c = 0.55;
     const Shaded s(node, hit(c));
-    const float r_coat = static_cast<float>(fresnel(c, 1.3)), r_specular = static_cast<float>(fresnel(c, 1.7));
+    const float r_coat = static_cast<float>(fresnel(c, 1.3)),
+                r_specular = static_cast<float>(fresnel(c, 1.7));
     for (int i = 0; i < 3; ++i) {
         // Written out from the top, a channel at a time.
         const float below_coat = opacity[i] * ((1 - coat) + coat * coat_color[i] * (1 - r_coat));
@@ -109,7 +136,8 @@ TEST(StandardSurface, AllLayersAreWeightedAsSpecified) {
         EXPECT_NEAR(s.emitted()[i], below_coat * emission * emission_color[i], 1e-5);
         EXPECT_NEAR(s.weight(kMetal)[i], below_coat * metalness, 1e-5);
         EXPECT_NEAR(s.weight(kSpecular)[i], dielectric * specular * specular_color[i], 1e-5);
-        EXPECT_NEAR(s.weight(kTransmission)[i], below_specular * transmission * transmission_color[i], 1e-5);
+        EXPECT_NEAR(s.weight(kTransmission)[i],
+                    below_specular * transmission * transmission_color[i], 1e-5);
         EXPECT_NEAR(s.weight(kDiffuse)[i], base * (1 - subsurface), 1e-5);
         EXPECT_NEAR(s.weight(kSubsurface)[i], base * subsurface, 1e-5);
     }
@@ -121,7 +149,10 @@ TEST(StandardSurface, AllLayersAreWeightedAsSpecified) {
 TEST(StandardSurface, SheenCoversTheBaseByItsAlbedo) {
     TestNode node(node_standard_surface());
     const float sheen = 0.8F;
-    node.set("sheen", sheen).set("sheen_color", Color{1, 0.5F, 0}).set("specular", 0.0F).set("transmission", 0.25F);
+    node.set("sheen", sheen)
+        .set("sheen_color", Color{1, 0.5F, 0})
+        .set("specular", 0.0F)
+        .set("transmission", 0.25F);
     const Shaded s(node, hit(0.3));
     expect_color(s.weight(kSheen), Color{0.6F, 0.3F, 0});
     const Color sheen_albedo = s.set.albedo(s.index.at(kSheen));
@@ -132,7 +163,11 @@ TEST(StandardSurface, SheenCoversTheBaseByItsAlbedo) {
 
 TEST(StandardSurface, CoatAffectsColorAndRoughnessBelow) {
     TestNode node(node_standard_surface());
-    node.set("coat", 0.5F).set("coat_affect_color", 1.0F).set("coat_affect_roughness", 1.0F).set("coat_roughness", 0.4F).set("specular_roughness", 0.2F);
+    node.set("coat", 0.5F)
+        .set("coat_affect_color", 1.0F)
+        .set("coat_affect_roughness", 1.0F)
+        .set("coat_roughness", 0.4F)
+        .set("specular_roughness", 0.2F);
     node.set("base_color", Color{0.25F, 0.5F, 1});
     const Shaded s(node, hit(0.8));
     const auto& diffuse = std::get<DiffuseReflect>(s.closure(kDiffuse).model);
@@ -148,7 +183,8 @@ TEST(StandardSurface, InsideOfGlassTheIndexTurnsRound) {
     const Shaded out(node, hit(0.9)), in(node, hit(0.9, false));
     EXPECT_NEAR(std::get<DielectricTransmit>(out.closure(kTransmission).model).eta, 1.4F, 1e-6);
     EXPECT_NEAR(std::get<DielectricTransmit>(in.closure(kTransmission).model).eta, 1 / 1.4F, 1e-6);
-    expect_color(in.weight(kTransmission), Color::grey(static_cast<float>(1 - fresnel(0.9, 1 / 1.4))));
+    expect_color(in.weight(kTransmission),
+                 Color::grey(static_cast<float>(1 - fresnel(0.9, 1 / 1.4))));
     EXPECT_TRUE(in.has(kSpecular));
     node.set("internal_reflections", false);
     EXPECT_FALSE(Shaded(node, hit(0.9, false)).has(kSpecular));
@@ -157,14 +193,16 @@ TEST(StandardSurface, InsideOfGlassTheIndexTurnsRound) {
     expect_color(Shaded(node, hit(0.2, false)).weight(kTransmission), kBlack);
     // An opaque surface looks the same from both sides.
     node.set("transmission", 0.0F);
-    expect_color(Shaded(node, hit(0.9, false)).weight(kDiffuse), Shaded(node, hit(0.9)).weight(kDiffuse));
+    expect_color(Shaded(node, hit(0.9, false)).weight(kDiffuse),
+                 Shaded(node, hit(0.9)).weight(kDiffuse));
 }
 
 TEST(StandardSurface, MirrorsOfHighIndexKeepTheirReflectance) {
     TestNode node = smooth_surface();
     node.set("specular_IOR", 20.0F).set("base", 0.0F);
     const Shaded s(node, hit(1));
-    expect_color(s.set.albedo(s.index.at(kSpecular)), Color::grey(static_cast<float>(fresnel(1, 20))), 2e-3);
+    expect_color(s.set.albedo(s.index.at(kSpecular)),
+                 Color::grey(static_cast<float>(fresnel(1, 20))), 2e-3);
 }
 
 TEST(StandardSurface, AnisotropyStretchesAndTurns) {
@@ -173,7 +211,8 @@ TEST(StandardSurface, AnisotropyStretchesAndTurns) {
     const auto across = [&](float rotation, bool along_x) {
         node.set("specular_rotation", rotation);
         const Shaded s(node, hit(1));
-        const Vec3f wi = along_x ? Vec3f{0.5F, 0, std::sqrt(0.75F)} : Vec3f{0, 0.5F, std::sqrt(0.75F)};
+        const Vec3f wi =
+            along_x ? Vec3f{0.5F, 0, std::sqrt(0.75F)} : Vec3f{0, 0.5F, std::sqrt(0.75F)};
         return s.set.eval(s.index.at(kSpecular), wi).f.r;
     };
     EXPECT_GT(across(0, true), 2 * across(0, false));
@@ -185,7 +224,8 @@ TEST(StandardSurface, LinkedNormalTiltsOnlyItsLayers) {
     TestNode node(node_standard_surface());
     node.set("normal", Vec3f{1, 0, 2}).set("coat", 1.0F);
     const Shaded s(node, hit(1));
-    const Vec3f low{-0.95F, 0, std::sqrt(1 - 0.95F * 0.95F)};  // below the horizon of the tilted normal
+    const Vec3f low{-0.95F, 0,
+                    std::sqrt(1 - 0.95F * 0.95F)};  // below the horizon of the tilted normal
     EXPECT_TRUE(is_black(s.set.eval(s.index.at(kDiffuse), low).f));
     EXPECT_NE(s.closure(kSpecular).frame, 0);
     EXPECT_EQ(s.closure(kCoat).frame, 0);
@@ -197,7 +237,9 @@ TEST(StandardSurface, LinkedNormalTiltsOnlyItsLayers) {
 
 TEST(StandardSurface, PrepareClearsNormalsThatAreOnlyWritten) {
     TestNode node(node_standard_surface());
-    node.set("normal", Vec3f{1, 1, 1}).set("tangent", Vec3f{1, 1, 1}).set("coat_normal", Vec3f{1, 1, 1});
+    node.set("normal", Vec3f{1, 1, 1})
+        .set("tangent", Vec3f{1, 1, 1})
+        .set("coat_normal", Vec3f{1, 1, 1});
     TestContext context;
     context.linked = {"coat_normal"};
     node.type().prepare(node.block(), context);
@@ -209,7 +251,9 @@ TEST(StandardSurface, PrepareClearsNormalsThatAreOnlyWritten) {
 
 TEST(StandardSurface, SubsurfaceIsShownAsDiffuseAndSaysSo) {
     TestNode node(node_standard_surface());
-    node.set("subsurface", 1.0F).set("subsurface_color", Color{0.9F, 0.4F, 0.2F}).set("specular", 0.0F);
+    node.set("subsurface", 1.0F)
+        .set("subsurface_color", Color{0.9F, 0.4F, 0.2F})
+        .set("specular", 0.0F);
     TestContext context;
     node.type().prepare(node.block(), context);
     EXPECT_EQ(context.count(Code::ParamPending), 1U);
@@ -225,12 +269,18 @@ TEST(StandardSurface, SubsurfaceIsShownAsDiffuseAndSaysSo) {
 
 TEST(StandardSurface, CausticsFlagGoesToSpecularLobesOnly) {
     TestNode node(node_standard_surface());
-    node.set("coat", 0.5F).set("metalness", 0.5F).set("transmission", 0.5F).set("sheen", 0.5F).set("subsurface", 0.5F);
+    node.set("coat", 0.5F)
+        .set("metalness", 0.5F)
+        .set("transmission", 0.5F)
+        .set("sheen", 0.5F)
+        .set("subsurface", 0.5F);
     for (const bool caustics : {false, true}) {
         node.set("caustics", caustics);
         const Shaded s(node, hit(0.7));
-        for (const int lobe : {kSheen, kSpecular, kMetal, kCoat, kTransmission}) EXPECT_EQ(s.closure(lobe).caustics, caustics) << lobe;
-        for (const int lobe : {kDiffuse, kSubsurface}) EXPECT_TRUE(s.closure(lobe).caustics) << lobe;
+        for (const int lobe : {kSheen, kSpecular, kMetal, kCoat, kTransmission})
+            EXPECT_EQ(s.closure(lobe).caustics, caustics) << lobe;
+        for (const int lobe : {kDiffuse, kSubsurface})
+            EXPECT_TRUE(s.closure(lobe).caustics) << lobe;
     }
 }
 
@@ -263,10 +313,14 @@ void randomise(TestNode& node, std::mt19937& rng, float low, float high) {
     for (const ParamInfo& p : node.type().params) {
         if (p.name.view().ends_with("normal") || p.name.view() == "tangent") continue;
         const std::string name = p.name.str();
-        if (p.name.view().ends_with("IOR")) node.set(name.c_str(), 1 + 1.5F * u(rng));
-        else if (p.type == ParamType::Float) node.set(name.c_str(), u(rng));
-        else if (p.type == ParamType::Rgb) node.set(name.c_str(), Color{u(rng), u(rng), u(rng)});
-        else if (p.type == ParamType::Bool) node.set(name.c_str(), u(rng) > 0.5F);
+        if (p.name.view().ends_with("IOR"))
+            node.set(name.c_str(), 1 + 1.5F * u(rng));
+        else if (p.type == ParamType::Float)
+            node.set(name.c_str(), u(rng));
+        else if (p.type == ParamType::Rgb)
+            node.set(name.c_str(), Color{u(rng), u(rng), u(rng)});
+        else if (p.type == ParamType::Bool)
+            node.set(name.c_str(), u(rng) > 0.5F);
     }
 }
 
@@ -279,15 +333,21 @@ TEST(StandardSurface, NeverReturnsMoreLightThanItGets) {
             for (const bool entering : {true, false}) {
                 const Color total = Shaded(node, hit(c, entering)).total_albedo();
                 // The tables of albedos are good to 1e-3.
-                EXPECT_LE(max_component(total), 1.003F) << "set " << k << " cos " << c << " entering " << entering;
+                EXPECT_LE(max_component(total), 1.003F)
+                    << "set " << k << " cos " << c << " entering " << entering;
             }
     }
 }
 
 TEST(StandardSurface, WhiteSurfacesLoseNothing) {
     TestNode node(node_standard_surface());
-    node.set("base_color", kWhite).set("specular_roughness", 0.4F).set("coat", 1.0F).set("sheen", 0.5F).set("opacity", Color{0.5F, 0.6F, 1});
-    for (const double c : {1.0, 0.5, 0.2}) expect_color(Shaded(node, hit(c)).total_albedo(), kWhite, 4e-3);
+    node.set("base_color", kWhite)
+        .set("specular_roughness", 0.4F)
+        .set("coat", 1.0F)
+        .set("sheen", 0.5F)
+        .set("opacity", Color{0.5F, 0.6F, 1});
+    for (const double c : {1.0, 0.5, 0.2})
+        expect_color(Shaded(node, hit(c)).total_albedo(), kWhite, 4e-3);
 }
 
 TEST(StandardSurface, WildValuesFromLinksDoNotBreakIt) {
@@ -297,8 +357,11 @@ TEST(StandardSurface, WildValuesFromLinksDoNotBreakIt) {
         TestNode node(node_standard_surface());
         randomise(node, rng, -1e4F, 1e4F);
         if (k % 2 == 0)
-            for (const char* p : {"coat", "metalness", "specular", "specular_roughness", "coat_IOR", "sheen_roughness", "specular_rotation", "emission"}) node.set(p, nan);
-        if (k % 4 == 0) node.set("base_color", Color{nan, 1, -1}).set("opacity", Color{2, nan, -3});
+            for (const char* p : {"coat", "metalness", "specular", "specular_roughness",
+                                  "coat_IOR", "sheen_roughness", "specular_rotation", "emission"})
+                node.set(p, nan);
+        if (k % 4 == 0)
+            node.set("base_color", Color{nan, 1, -1}).set("opacity", Color{2, nan, -3});
         const Shaded s(node, hit(0.4, k % 3 != 0));
         EXPECT_TRUE(is_finite(s.set.transparency()));
         EXPECT_TRUE(is_finite(s.emitted()));

@@ -10,19 +10,45 @@ namespace lightsieve {
 namespace {
 
 enum class ColorMode : std::int32_t {
-    Color, Ng, Ns, N, Bary, Uv, U, V, Dpdu, Dpdv, P, Prims, UniformId, Wire, Polywire, Obj, EdgeLength, Floatgrid,
-    ReflectLine, BadUvs, Nlights, Id, BumpDiff, PixelError
+    Color,
+    Ng,
+    Ns,
+    N,
+    Bary,
+    Uv,
+    U,
+    V,
+    Dpdu,
+    Dpdv,
+    P,
+    Prims,
+    UniformId,
+    Wire,
+    Polywire,
+    Obj,
+    EdgeLength,
+    Floatgrid,
+    ReflectLine,
+    BadUvs,
+    Nlights,
+    Id,
+    BumpDiff,
+    PixelError
 };
 enum class ShadeMode : std::int32_t { NdotEye, Lambert, Flat, AmbOcc, Plastic, Metal };
 enum class OverlayMode : std::int32_t { None, Wire, Polywire };
 
 /// Names of ColorMode, in its order.
 std::vector<std::string> color_modes() {
-    return {"color", "ng", "ns", "n", "bary", "uv", "u", "v", "dpdu", "dpdv", "p", "prims", "uniformid", "wire", "polywire",
-            "obj", "edgelength", "floatgrid", "reflectline", "bad_uvs", "nlights", "id", "bumpdiff", "pixelerror"};
+    return {"color",       "ng",      "ns",       "n",    "bary",       "uv",
+            "u",           "v",       "dpdu",     "dpdv", "p",          "prims",
+            "uniformid",   "wire",    "polywire", "obj",  "edgelength", "floatgrid",
+            "reflectline", "bad_uvs", "nlights",  "id",   "bumpdiff",   "pixelerror"};
 }
 /// Names of ShadeMode, in its order.
-std::vector<std::string> shade_modes() { return {"ndoteye", "lambert", "flat", "ambocc", "plastic", "metal"}; }
+std::vector<std::string> shade_modes() {
+    return {"ndoteye", "lambert", "flat", "ambocc", "plastic", "metal"};
+}
 
 struct Utility {
     ColorMode color_mode = ColorMode::Color;
@@ -42,28 +68,41 @@ struct Utility {
 };
 
 NodeType Utility::describe() {
-    Describe<Utility> d("utility", NodeKind::Shader, "Shows normals, coordinates and other properties of surfaces.");
+    Describe<Utility> d("utility", NodeKind::Shader,
+                        "Shows normals, coordinates and other properties of surfaces.");
     d.param("color_mode", &Utility::color_mode, "What is shown.").names(color_modes());
-    d.param("shade_mode", &Utility::shade_mode, "How it is lit: by the angle to the viewer, as a diffuse surface, not at all.").names(shade_modes());
-    d.param("overlay_mode", &Utility::overlay_mode, "Wires on top.").names({"none", "wire", "polywire"}).pending();
+    d.param("shade_mode", &Utility::shade_mode,
+            "How it is lit: by the angle to the viewer, as a diffuse surface, not at all.")
+        .names(shade_modes());
+    d.param("overlay_mode", &Utility::overlay_mode, "Wires on top.")
+        .names({"none", "wire", "polywire"})
+        .pending();
     d.param("color", &Utility::color, "Colour for color_mode color.");
-    d.param("ao_distance", &Utility::ao_distance, "Reach of ambient occlusion; acts with shade_mode ambocc.").ignored();
-    d.param("roughness", &Utility::roughness, "Roughness of shade modes plastic and metal.").ignored();
+    d.param("ao_distance", &Utility::ao_distance,
+            "Reach of ambient occlusion; acts with shade_mode ambocc.")
+        .ignored();
+    d.param("roughness", &Utility::roughness, "Roughness of shade modes plastic and metal.")
+        .ignored();
     d.param("normal", &Utility::normal, "Shading normal, world space; acts when linked.");
-    d.lobe(0, EventKind::Reflection, EventLobe::Diffuse, "", "Diffuse reflection of shade_mode lambert.");
+    d.lobe(0, EventKind::Reflection, EventLobe::Diffuse, "",
+           "Diffuse reflection of shade_mode lambert.");
     d.lobe(1, EventKind::Object, EventLobe::None, "", "The colour of the other shade modes.");
     // Linked to a parameter it is a colour, as the surface's shader it may need light: both functions.
     NodeType type = d.done();
     type.output = OutputType::Rgb;
-    type.eval_value = [](const void* block, const ShadePoint& at) { return static_cast<const Utility*>(block)->value(at); };
+    type.eval_value = [](const void* block, const ShadePoint& at) {
+        return static_cast<const Utility*>(block)->value(at);
+    };
     return type;
 }
 
 void Utility::prepare(NodeContext& context) {
     if (!context.is_linked("normal")) normal = {};
     const auto replace = [&](const char* param, const std::string& was, const char* by) {
-        context.diagnostics().warning(Code::ParamPending, fmt::format("{} \"{}\" is not supported yet: shown as \"{}\"", param, was, by),
-                                      context.where(param));
+        context.diagnostics().warning(
+            Code::ParamPending,
+            fmt::format("{} \"{}\" is not supported yet: shown as \"{}\"", param, was, by),
+            context.where(param));
     };
     if (color_mode > ColorMode::P) {
         replace("color_mode", color_modes().at(static_cast<std::size_t>(color_mode)), "color");
@@ -79,12 +118,16 @@ void Utility::prepare(NodeContext& context) {
 }
 
 Color Utility::shown(const ShadePoint& at) const {
-    const auto direction = [](Vec3f v) { return Color{0.5F + 0.5F * v.x, 0.5F + 0.5F * v.y, 0.5F + 0.5F * v.z}; };
+    const auto direction = [](Vec3f v) {
+        return Color{0.5F + 0.5F * v.x, 0.5F + 0.5F * v.y, 0.5F + 0.5F * v.z};
+    };
     switch (color_mode) {
-        case ColorMode::Ng: return direction(at.entering ? at.geometric_normal : -at.geometric_normal);
+        case ColorMode::Ng:
+            return direction(at.entering ? at.geometric_normal : -at.geometric_normal);
         case ColorMode::Ns: return direction(at.normal);
         case ColorMode::N: return direction(shading_normal(at, normal));
-        case ColorMode::Bary: return {at.barycentric.x, at.barycentric.y, 1 - at.barycentric.x - at.barycentric.y};
+        case ColorMode::Bary:
+            return {at.barycentric.x, at.barycentric.y, 1 - at.barycentric.x - at.barycentric.y};
         case ColorMode::Uv: return {at.uv.x, at.uv.y, 0};
         case ColorMode::U: return Color::grey(at.uv.x);
         case ColorMode::V: return Color::grey(at.uv.y);
@@ -96,7 +139,8 @@ Color Utility::shown(const ShadePoint& at) const {
 }
 
 ShaderValue Utility::value(const ShadePoint& at) const {
-    const float facing = shade_mode == ShadeMode::NdotEye ? positive(dot(shading_normal(at, normal), at.wo)) : 1.0F;
+    const float facing =
+        shade_mode == ShadeMode::NdotEye ? positive(dot(shading_normal(at, normal), at.wo)) : 1.0F;
     return {shown(at) * facing, 1};
 }
 

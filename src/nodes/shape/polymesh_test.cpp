@@ -21,7 +21,8 @@ TestNode two_quads() {
     TestNode node(node_polymesh());
     node.set_array<std::uint32_t>("nsides", {4, 4});
     node.set_array<std::uint32_t>("vidxs", {0, 1, 4, 3, 1, 2, 5, 4});
-    node.set_array<Vec3f>("vlist", {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}});
+    node.set_array<Vec3f>("vlist",
+                          {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}});
     return node;
 }
 
@@ -91,7 +92,9 @@ TEST(Polymesh, SmoothingWithoutNormalsAveragesThem) {
 TEST(Polymesh, UvsFollowTheCorners) {
     TestNode node = two_quads();
     node.set_array<Vec2f>("uvlist", {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
-    expect_refused(node, "vidxs");  // without uvidxs the vertices' indices are used, and there are more of those
+    expect_refused(
+        node,
+        "vidxs");  // without uvidxs the vertices' indices are used, and there are more of those
     node.set_array<std::uint32_t>("uvidxs", {0, 1, 2, 3, 3, 2, 1, 0});
     EXPECT_EQ(built(node).uv_indices, (Indices{0, 1, 2, 0, 2, 3, 3, 2, 1, 3, 1, 0}));
 }
@@ -99,7 +102,8 @@ TEST(Polymesh, UvsFollowTheCorners) {
 TEST(Polymesh, KeysAreKept) {
     TestNode node(node_polymesh());
     node.set_array<std::uint32_t>("vidxs", {0, 1, 2});
-    node.set_array<Vec3f>("vlist", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}}, 2);
+    node.set_array<Vec3f>("vlist",
+                          {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}}, 2);
     const TriangleMesh mesh = built(node);
     ASSERT_EQ(mesh.positions.size(), 2U);
     EXPECT_EQ(mesh.positions[1][2], (Vec3f{0, 1, 5}));
@@ -122,14 +126,17 @@ TEST(Polymesh, HolesAreCutOutOfTheirPolygon) {
     TestNode node(node_polymesh());
     node.set_array<std::uint32_t>("nsides", {4, 4});
     node.set_array<std::uint32_t>("vidxs", {0, 1, 2, 3, 4, 5, 6, 7});
-    node.set_array<Vec3f>("vlist", {{0, 0, 0}, {9, 0, 0}, {9, 0, 9}, {0, 0, 9}, {3, 0, 3}, {6, 0, 3}, {6, 0, 6}, {3, 0, 6}});
+    node.set_array<Vec3f>(
+        "vlist",
+        {{0, 0, 0}, {9, 0, 0}, {9, 0, 9}, {0, 0, 9}, {3, 0, 3}, {6, 0, 3}, {6, 0, 6}, {3, 0, 6}});
     node.set_array<std::uint32_t>("polygon_holes", {1, 0});
     const TriangleMesh mesh = built(node);
     ASSERT_EQ(mesh.face, Indices(8, 0));
     float area = 0;
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
         const auto& p = mesh.positions[0];
-        area += 0.5F * length(cross(p[mesh.indices[t + 1]] - p[mesh.indices[t]], p[mesh.indices[t + 2]] - p[mesh.indices[t]]));
+        area += 0.5F * length(cross(p[mesh.indices[t + 1]] - p[mesh.indices[t]],
+                                    p[mesh.indices[t + 2]] - p[mesh.indices[t]]));
     }
     EXPECT_NEAR(area, 81 - 9, 1e-4);
     node.set_array<std::uint32_t>("polygon_holes", {1});
@@ -154,7 +161,12 @@ TEST(Polymesh, HostileArraysAreRefusedWhereTheyStand) {
     expect_refused(node, "nsides");
 
     node = two_quads();
-    node.set_array<Vec3f>("vlist", {{0, 0, 0}, {1, 0, 0}, {1, std::numeric_limits<float>::quiet_NaN(), 1}, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}});
+    node.set_array<Vec3f>("vlist", {{0, 0, 0},
+                                    {1, 0, 0},
+                                    {1, std::numeric_limits<float>::quiet_NaN(), 1},
+                                    {0, 1, 0},
+                                    {1, 1, 0},
+                                    {1, 1, 1}});
     expect_refused(node, "vlist");
     node.set_array<Vec3f>("vlist", {});
     expect_refused(node, "vidxs");
@@ -171,7 +183,8 @@ TEST(Polymesh, HostileArraysAreRefusedWhereTheyStand) {
 
 TEST(Polymesh, WhatCanBeLeftOutIsAWarning) {
     TestNode node = two_quads();
-    node.set_array<std::uint32_t>("nsides", {4, 2});  // two corners too many in vidxs, and a polygon of two
+    node.set_array<std::uint32_t>("nsides",
+                                  {4, 2});  // two corners too many in vidxs, and a polygon of two
     TestContext context;
     const auto geometry = build(node, context);
     ASSERT_NE(geometry, nullptr);
@@ -190,10 +203,14 @@ TEST(Polymesh, HugeConcavePolygonsAreRefused) {
     const auto n = static_cast<std::uint32_t>(kMaxConcaveCorners + 2);
     Indices vidxs;
     std::vector<Vec3f> vlist{{0, 0, 0}};
-    for (std::uint32_t i = 0; i < n; ++i) vidxs.push_back(i);
-    for (std::uint32_t i = 1; i < n; ++i) vlist.push_back({static_cast<float>(n - i), i % 2 == 0 ? 5.0F : 4.0F, 0});
+    for (std::uint32_t i = 0; i < n; ++i)
+        vidxs.push_back(i);
+    for (std::uint32_t i = 1; i < n; ++i)
+        vlist.push_back({static_cast<float>(n - i), i % 2 == 0 ? 5.0F : 4.0F, 0});
     TestNode node(node_polymesh());
-    node.set_array<std::uint32_t>("nsides", {n}).set_array("vidxs", vidxs).set_array("vlist", vlist);
+    node.set_array<std::uint32_t>("nsides", {n})
+        .set_array("vidxs", vidxs)
+        .set_array("vlist", vlist);
     TestContext context;
     EXPECT_EQ(build(node, context), nullptr);
     EXPECT_EQ(context.count(Code::LimitPolygon), 1U);

@@ -14,7 +14,8 @@ enum class TransformType : std::int32_t { Linear, RotateAboutOrigin, RotateAbout
 /// Parameters of every shape node that the renderer does not read.
 struct ShapeNode : ShapeCommon {
     TransformType transform_type = TransformType::RotateAboutCenter;
-    float step_size = 0, volume_padding = 0;  ///< a step size above 0 makes a volume container: pending
+    float step_size = 0,
+          volume_padding = 0;  ///< a step size above 0 makes a volume container: pending
     Name toon_id;
 };
 
@@ -22,31 +23,51 @@ struct ShapeNode : ShapeCommon {
 template <class T>
 void describe_shape_common(Describe<T>& d) {
     d.param("visibility", &ShapeCommon::visibility,
-            "Ray types that see the shape, added up: camera 1, shadow 2, diffuse_transmit 4, specular_transmit 8, volume 16, "
+            "Ray types that see the shape, added up: camera 1, shadow 2, diffuse_transmit 4, "
+            "specular_transmit 8, volume 16, "
             "diffuse_reflect 32, specular_reflect 64, subsurface 128.");
-    d.param("sidedness", &ShapeCommon::sidedness, "Ray types (as for visibility) that see both sides; others pass back faces.");
-    d.param("shader", &ShapeCommon::shader, "Shader of the surface; several are chosen from by shidxs.");
-    d.param("matrix", &ShapeCommon::matrix, "Placement in the world, row vectors; one matrix a motion key.");
-    d.param("motion_start", &ShapeCommon::motion_start, "Time of the first motion key.").unit("frames");
+    d.param("sidedness", &ShapeCommon::sidedness,
+            "Ray types (as for visibility) that see both sides; others pass back faces.");
+    d.param("shader", &ShapeCommon::shader,
+            "Shader of the surface; several are chosen from by shidxs.");
+    d.param("matrix", &ShapeCommon::matrix,
+            "Placement in the world, row vectors; one matrix a motion key.");
+    d.param("motion_start", &ShapeCommon::motion_start, "Time of the first motion key.")
+        .unit("frames");
     d.param("motion_end", &ShapeCommon::motion_end, "Time of the last motion key.").unit("frames");
-    d.param("receive_shadows", &ShapeCommon::receive_shadows, "Other shapes cast shadows on this one.");
+    d.param("receive_shadows", &ShapeCommon::receive_shadows,
+            "Other shapes cast shadows on this one.");
     d.param("self_shadows", &ShapeCommon::self_shadows, "The shape casts shadows on itself.");
-    d.param("matte", &ShapeCommon::matte, "A hole in the picture: black, without alpha, for camera rays.");
+    d.param("matte", &ShapeCommon::matte,
+            "A hole in the picture: black, without alpha, for camera rays.");
     d.param("invert_normals", &ShapeCommon::invert_normals, "Turns the outward side inward.");
-    d.param("opaque", &ShapeCommon::opaque, "Deprecated; opacity of the shader decides.").ignored();
-    d.param("ray_bias", &ShapeCommon::ray_bias, "Arnold's offset of rays that leave the surface.").unit("scene units").ignored();
+    d.param("opaque", &ShapeCommon::opaque, "Deprecated; opacity of the shader decides.")
+        .ignored();
+    d.param("ray_bias", &ShapeCommon::ray_bias, "Arnold's offset of rays that leave the surface.")
+        .unit("scene units")
+        .ignored();
     d.param("id", &ShapeCommon::id, "Value of the AOV ID; 0: a hash of the name.");
-    d.param("use_light_group", &ShapeCommon::use_light_group, "Only the lights of light_group illuminate the shape.");
+    d.param("use_light_group", &ShapeCommon::use_light_group,
+            "Only the lights of light_group illuminate the shape.");
     d.param("light_group", &ShapeCommon::light_group, "Lights for use_light_group.");
-    d.param("use_shadow_group", &ShapeCommon::use_shadow_group, "Only the lights of shadow_group cast shadows on the shape.");
+    d.param("use_shadow_group", &ShapeCommon::use_shadow_group,
+            "Only the lights of shadow_group cast shadows on the shape.");
     d.param("shadow_group", &ShapeCommon::shadow_group, "Lights for use_shadow_group.");
-    d.param("trace_sets", &ShapeCommon::trace_sets, "Names by which shaders choose what they trace.").ignored();
-    d.param("transform_type", &ShapeNode::transform_type, "How matrices between motion keys are found; here element by element.")
+    d.param("trace_sets", &ShapeCommon::trace_sets,
+            "Names by which shaders choose what they trace.")
+        .ignored();
+    d.param("transform_type", &ShapeNode::transform_type,
+            "How matrices between motion keys are found; here element by element.")
         .names({"linear", "rotate_about_origin", "rotate_about_center"})
         .ignored();
-    d.param("step_size", &ShapeNode::step_size, "Above 0 the shape is a container of a volume.").unit("scene units").pending();
-    d.param("volume_padding", &ShapeNode::volume_padding, "Enlarges a volume container; acts with step_size.").ignored();
-    d.param("toon_id", &ShapeNode::toon_id, "Name for contour rendering, which is not supported.").ignored();
+    d.param("step_size", &ShapeNode::step_size, "Above 0 the shape is a container of a volume.")
+        .unit("scene units")
+        .pending();
+    d.param("volume_padding", &ShapeNode::volume_padding,
+            "Enlarges a volume container; acts with step_size.")
+        .ignored();
+    d.param("toon_id", &ShapeNode::toon_id, "Name for contour rendering, which is not supported.")
+        .ignored();
 }
 
 }  // namespace lightsieve

@@ -14,7 +14,8 @@ struct Sphere : ShapeNode {
     static NodeType describe() {
         Describe<Sphere> d("sphere", NodeKind::Shape, "A sphere.");
         describe_shape_common(d);
-        d.param("center", &Sphere::center, "Middle of the sphere, object space.").unit("scene units");
+        d.param("center", &Sphere::center, "Middle of the sphere, object space.")
+            .unit("scene units");
         d.param("radius", &Sphere::radius, "Radius.").unit("scene units").range(0, kInfinity);
         return d.done();
     }
@@ -22,15 +23,19 @@ struct Sphere : ShapeNode {
     [[nodiscard]] std::unique_ptr<ShapeGeometry> make_geometry(NodeContext& context) const {
         Diagnostics& diagnostics = context.diagnostics();
         if (!is_finite(center)) {
-            diagnostics.error(Code::InvalidValue, "the center of the sphere is not finite", context.where("center"));
+            diagnostics.error(Code::InvalidValue, "the center of the sphere is not finite",
+                              context.where("center"));
             return nullptr;
         }
         if (!std::isfinite(radius)) {
-            diagnostics.error(Code::InvalidValue, "the radius of the sphere is not finite", context.where("radius"));
+            diagnostics.error(Code::InvalidValue, "the radius of the sphere is not finite",
+                              context.where("radius"));
             return nullptr;
         }
         if (!(radius > 0)) {
-            diagnostics.warning(Code::InvalidValue, "a sphere without a radius above 0 shows nothing", context.where("radius"));
+            diagnostics.warning(Code::InvalidValue,
+                                "a sphere without a radius above 0 shows nothing",
+                                context.where("radius"));
             auto nothing = std::make_unique<ShapeGeometry>();
             nothing->data = SphereList{{{}}, {}};
             return nothing;
