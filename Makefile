@@ -6,6 +6,7 @@
 #   make test      all tests but the very long ones
 #   make bigtest   the very long ones
 #   make format    rewrites C++ and Python in the project's style;  make lint  checks it
+#   make docs      rewrites the pages that follow from the code;  make stubs  the modules' types
 #   NATIVE=1       uses every instruction of this processor; the result does not run on older ones
 
 .DELETE_ON_ERROR:
@@ -22,7 +23,7 @@ python_sources := $(shell find python -name '*.py' -o -name '*.pyi' 2>/dev/null)
 native := $(if $(filter 1 ON on yes,$(NATIVE)),ON,OFF)
 cmake_options := -C build-dir=$(BUILD) -C cmake.define.LIGHTSIEVE_TESTS=ON -C cmake.define.LIGHTSIEVE_NATIVE=$(native)
 
-.PHONY: setup demo test bigtest packages dev cpp_tests format lint clean
+.PHONY: setup demo test bigtest packages dev cpp_tests stubs docs format lint clean
 setup: $(VENV)/.installed
 
 # The distribution's packages: a look at the list when they are all there.
@@ -67,6 +68,12 @@ test: dev cpp_tests
 
 bigtest: dev cpp_tests
 	$(BIN)/python -m pytest -m big
+
+# What follows from the code: the modules' type stubs and the generated pages.
+stubs: dev
+	tools/stubs
+docs: dev
+	$(BIN)/python tools/generate_docs.py
 
 format: dev
 	tools/format

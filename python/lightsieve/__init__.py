@@ -49,9 +49,9 @@ _LAZY = {
 def __getattr__(name: str) -> Any:
     """Loads a public name when it is first used (PEP 562)."""
     if name == "__version__":
-        from lightsieve._lpe import __version__
+        from lightsieve._lpe import version
 
-        return __version__
+        return version
     if name not in _LAZY:
         raise AttributeError(f"module 'lightsieve' has no attribute {name!r}")
     if _LAZY[name] == "":

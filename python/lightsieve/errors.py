@@ -46,6 +46,25 @@ class Diagnostic(NamedTuple):
         return {**self._asdict(), "notes": [note._asdict() for note in self.notes]}
 
 
+def without_place(code: str, message: str, hint: str) -> Diagnostic:
+    """An error that belongs to no place in a text, rendered as the compiled modules render theirs.
+
+    Args:
+        code: A code of docs/reference/errors.md.
+        message: What is wrong.
+        hint: What to do next; may be empty.
+
+    Returns:
+        The error.
+
+    Example:
+        >>> without_place("unknown-node", 'there is no node "spher"', "").rendered
+        'error[unknown-node]: there is no node "spher"'
+    """
+    rendered = f"error[{code}]: {message}" + (f"\n  hint: {hint}" if hint else "")
+    return Diagnostic("error", code, message, hint, None, None, None, rendered)
+
+
 class LightsieveError(Exception):
     """Bad input: everything that was found wrong with it.
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from lightsieve.errors import Diagnostic, LightsieveError
+from lightsieve.errors import Diagnostic, LightsieveError, without_place
 
 Pixels = npt.NDArray[np.float32] | npt.NDArray[np.uint32]
 
@@ -137,7 +137,4 @@ class Frame:
         message = f'the frame has no layer "{name}"'
         near = get_close_matches(name, self._infos, n=1)
         hint = f'did you mean "{near[0]}"?' if near else f"it has: {', '.join(self._infos)}"
-        rendered = f"error[unknown-layer]: {message}\n  hint: {hint}"
-        raise LightsieveError(
-            [Diagnostic("error", "unknown-layer", message, hint, None, None, None, rendered)]
-        )
+        raise LightsieveError([without_place("unknown-layer", message, hint)])

@@ -74,7 +74,7 @@ void translate_errors() {
 }
 
 void add_common(nb::module_& module) {
-    module.attr("__version__") = LIGHTSIEVE_VERSION;
+    module.attr("version") = LIGHTSIEVE_VERSION;
     module.def(
         "exit_3_on_bug",
         [] {

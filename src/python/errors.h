@@ -22,7 +22,7 @@ namespace lightsieve::python {
 /// From now on InputError becomes LightsieveError in calls to this module.
 void translate_errors();
 
-/// Adds `__version__` and `exit_3_on_bug()` to a module.
+/// Adds `version` and `exit_3_on_bug()` to a module.
 void add_common(nanobind::module_& module);
 
 }  // namespace lightsieve::python

@@ -1,6 +1,7 @@
 #include "lpe/builtins.h"
 
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
@@ -97,6 +98,15 @@ void add_lpe(nb::module_& module) {
             return row == nullptr ? std::nullopt : std::optional(*row);
         },
         nb::arg("name"), "The built-in AOV of that name, or None.");
+    module.def(
+        "error_codes",
+        [] {
+            std::vector<std::pair<std::string_view, std::string_view>> out;
+            for (Code code : all_codes())
+                out.emplace_back(code_text(code), code_meaning(code));
+            return out;
+        },
+        "Every code with what it means, in the order of the reference.");
     module.def(
         "additive_sets",
         [](std::string_view table) { return lpe::additive_sets(table_named(table)); },

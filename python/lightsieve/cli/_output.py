@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from lightsieve.errors import Diagnostic, LightsieveError
+from lightsieve.errors import Diagnostic, LightsieveError, without_place
 
 _STYLES = {"error": "bold red", "warning": "bold yellow", "lint": "bold cyan"}
 _json_wanted = False
@@ -118,3 +119,21 @@ def report_failure(error: LightsieveError) -> None:
 def plural(n: int, noun: str) -> str:
     """`1 light`, `2 lights`, `1,204 triangles`."""
     return f"{n:,} {noun}{'' if n == 1 else 's'}"
+
+
+def save(path: Path, write: Callable[[Path], None]) -> None:
+    """Writes a file; the disk's refusal becomes an error like any other.
+
+    Args:
+        path: The file; its folder is made if it is missing.
+        write: Called with the path.
+
+    Raises:
+        LightsieveError: The file cannot be written (code `file-unwritable`).
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write(path)
+    except OSError as error:
+        message = f'cannot write "{path}": {error.strerror or error}'
+        raise LightsieveError([without_place("file-unwritable", message, "")]) from None

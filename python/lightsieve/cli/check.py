@@ -14,6 +14,18 @@ if TYPE_CHECKING:
     from lightsieve._core import CompiledScene, SceneSummary
 
 EXAMPLE = "lightsieve check shot.ass --strict"
+JSON = {
+    "scene": "the file",
+    "ok": "true if there are no errors",
+    "errors": "how many",
+    "warnings": "how many",
+    "lints": "how many",
+    "diagnostics": "the first 20 errors and 200 warnings and lints",
+    "summary": "null if errors forbid rendering, else an object: `width`, `height`, "
+    "`samples_per_pixel`, `shapes`, `instances`, `triangles`, `spheres`, `lights`, `shaders`, "
+    "`light_groups`, `expressions`, `states`, `atoms`, `files` (each `path` and `layers`: `name`, "
+    "`aov`, `type`, `expression`, `light_group`), `partitions`",
+}
 
 
 def summary_document(summary: SceneSummary) -> dict[str, Any]:

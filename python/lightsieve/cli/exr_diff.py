@@ -10,6 +10,15 @@ import typer
 from lightsieve.cli import _output
 
 EXAMPLE = "lightsieve exr diff new.exr reference.exr -o difference.exr --max-rmse 0.01"
+JSON = {
+    "a": "the file",
+    "b": "the reference",
+    "passed": "false if --max-rmse was given and exceeded, or a layer is missing",
+    "layers": "one object a layer that both have: `name`, `rmse`, `relative_mse`, "
+    "`max_difference`, `max_at` (`x`, `y`), `values`, `different`, `nonfinite`",
+    "only_a": "names of layers that only A has",
+    "only_b": "names of layers that only B has",
+}
 
 
 def command(

@@ -11,6 +11,18 @@ from lightsieve.cli import _output
 from lightsieve.cli._output import plural
 
 EXAMPLE = "lightsieve exr info out/frame.exr --attributes"
+JSON = {
+    "file": "the file",
+    "width": "of the display window [pixels]",
+    "height": "of the display window [pixels]",
+    "data_window": "`x`, `y`, `width`, `height`, relative to the display window",
+    "storage": "`tiles` or `scanlines`",
+    "compression": "as driver_exr.compression names it",
+    "parts": "how many",
+    "layers": "one object a layer: `name`, `channels` (their suffixes), `type` (`half`, `float`, "
+    "`uint`), `aov`, `expression`, `light_group`, `filter`, `filter_width`",
+    "attributes": "numbers, texts and lists of numbers of the first part's header, by name",
+}
 
 
 def command(

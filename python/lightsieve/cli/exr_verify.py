@@ -10,6 +10,13 @@ import typer
 from lightsieve.cli import _output
 
 EXAMPLE = "lightsieve exr verify out/frame.exr"
+JSON = {
+    "file": "the file",
+    "passed": "true if something was checked and all of it adds up",
+    "checks": "one object a sum: `sum`, `checked`, `passed`, `reason` (why it could not be "
+    "checked), `worst` (null or `x`, `y`, `channel`, `whole`, `sum`, `residual`, `tolerance`), "
+    "`failed_pixels`",
+}
 
 
 def command(

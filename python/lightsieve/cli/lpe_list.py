@@ -10,6 +10,10 @@ from lightsieve import lpe
 from lightsieve.cli import _output
 
 EXAMPLE = "lightsieve lpe list --lpe-table arnold7"
+JSON = {
+    "table": "`reference` or `arnold7`",
+    "aovs": "one object a built-in: `name`, `expression`, `meaning`, `part`",
+}
 
 
 def command(

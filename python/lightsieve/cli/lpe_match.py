@@ -10,6 +10,11 @@ from lightsieve import lpe
 from lightsieve.cli import _output
 
 EXAMPLE = """lightsieve lpe match diffuse "C RD L" "C <RS'coat'> L'key'" """.strip()
+JSON = {
+    "expression": "the expression, also where a name was given",
+    "paths": "one object a path, in order: `path`, `taken`",
+    "lints": "diagnostics: what is legal in the expression but probably not meant",
+}
 
 
 def command(

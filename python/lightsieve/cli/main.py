@@ -24,7 +24,6 @@ GROUPS = {
 
 EXIT_INPUT = 1
 EXIT_BUG = 3
-EXIT_INTERRUPTED = 130
 
 
 def _print_version(wanted: bool) -> None:
@@ -94,6 +93,9 @@ def _report_bug() -> None:
 
 def main() -> NoReturn:
     """Runs the command line and exits."""
+    from lightsieve import _lpe
+
+    _lpe.exit_3_on_bug()
     try:
         build_app(pretty=sys.stderr.isatty() and sys.stdout.isatty())()
     except LightsieveError as error:

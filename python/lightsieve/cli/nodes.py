@@ -8,22 +8,30 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from lightsieve.cli import _output
-from lightsieve.errors import Diagnostic, LightsieveError
+from lightsieve.errors import LightsieveError, without_place
 
 if TYPE_CHECKING:
     from lightsieve.scene import Node, Param
 
 EXAMPLE = "lightsieve nodes standard_surface"
+JSON = {
+    "nodes": "without NAME: one object a node: `name`, `kind`, `doc`",
+    "name": "with NAME: the node's name",
+    "kind": "with NAME: `shader`, `light`, `shape`, `camera`, `filter`, `driver` or `options`",
+    "doc": "with NAME: one line",
+    "output": "with NAME: what a shader gives to a parameter that links to it",
+    "params": "with NAME: one object a parameter: `name`, `type`, `array`, `default`, `doc`, "
+    "`unit`, `low`, `high`, `hard_range`, `enumerators`, `status` (`supported`, `ignored` or "
+    "`pending`)",
+    "lobes": "with NAME: one object a lobe: `event`, `label`, `doc`",
+}
 
 
 def _unknown(name: str, known: list[str]) -> LightsieveError:
     message = f'there is no node "{name}"'
     near = get_close_matches(name, known, n=1)
     hint = f'did you mean "{near[0]}"?' if near else "`lightsieve nodes` lists all of them"
-    rendered = f"error[unknown-node]: {message}\n  hint: {hint}"
-    return LightsieveError(
-        [Diagnostic("error", "unknown-node", message, hint, None, None, None, rendered)]
-    )
+    return LightsieveError([without_place("unknown-node", message, hint)])
 
 
 def format_value(value: Any) -> str:
@@ -39,7 +47,8 @@ def format_value(value: Any) -> str:
     return f'"{value}"' if isinstance(value, str) else str(value)
 
 
-def _notes(param: Param) -> str:
+def parameter_notes(param: Param) -> str:
+    """What there is to say of a parameter, in one line."""
     parts = [param.doc]
     if param.enumerators:
         parts.append(f"One of: {', '.join(param.enumerators)}.")
@@ -54,7 +63,8 @@ def _notes(param: Param) -> str:
     return " ".join(parts)
 
 
-def _default(param: Param) -> str:
+def default_text(param: Param) -> str:
+    """A parameter's default as a scene file writes it."""
     return str(param.default) if param.type == "ENUM" else format_value(param.default)
 
 
@@ -69,8 +79,8 @@ def _print_node(node: Node) -> None:
                 (
                     f"  {param.name}",
                     param.type + ("[]" if param.array else ""),
-                    _default(param),
-                    _notes(param),
+                    default_text(param),
+                    parameter_notes(param),
                 )
                 for param in node.params
             ),

@@ -19,6 +19,23 @@ if TYPE_CHECKING:
 EXAMPLE = (
     """lightsieve render shot.ass -o out/ --aov "diffuse RGB" --lpe "caustics CDS.*" """.strip()
 )
+JSON = {
+    "scene": "the file",
+    "errors": "how many",
+    "warnings": "how many",
+    "lints": "how many",
+    "diagnostics": "the first 20 errors and 200 warnings and lints",
+    "files": "written; this and all below are missing if errors forbid rendering",
+    "stopped": "true if Ctrl-C ended it early",
+    "width": "of the rendered region [pixels]",
+    "height": "of the rendered region [pixels]",
+    "samples": "camera samples taken",
+    "dropped_samples": "contributions that were not finite",
+    "rays": "closest-hit and shadow rays",
+    "seconds": "sampling, without reading the scene and writing files",
+    "output_seconds": "writing files",
+    "samples_per_second": "`samples` / `seconds`",
+}
 
 
 def _parse_size(text: str) -> tuple[int, int]:

@@ -1,0 +1,1 @@
+"""Tools around the renderer that need more than it does."""
