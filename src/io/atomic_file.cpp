@@ -22,7 +22,7 @@ namespace {
 /// The file that a write to `path` would change: links are followed, so that a link stays one.
 fs::path final_target(const std::string& path) {
     std::error_code ec;
-    const fs::path resolved = fs::weakly_canonical(path, ec);
+    const fs::path resolved = fs::weakly_canonical(fs::absolute(path), ec);
     return ec ? fs::absolute(path) : resolved;
 }
 
