@@ -101,7 +101,7 @@ void lint_binding(std::string_view text, const SourceSpan& base, std::string_vie
                   const Expr& expr, Diagnostics& diagnostics) {
     Diagnostics unused;
     const Expr tight = parse(text, base, unused, {aov_name, AlternationBinding::Tight});
-    if (!tight || equal(tight, expr) || equivalent(tight, expr)) return;
+    if (tight && (equal(tight, expr) || equivalent(tight, expr))) return;
     Cursor in(text, base, aov_name, diagnostics);
     // The first bar outside of labels.
     while (in.peek() != '|' && !in.at_end())
