@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -191,7 +192,7 @@ class ValueLexer {
             case TokenKind::End:
             case TokenKind::Open:
             case TokenKind::Close:
-                diagnostics_.error(Code::AssSyntax, "parameter \"" + std::string(what_) + "\" has no value", at(token.offset, token.length));
+                diagnostics_.error(Code::AssSyntax, "parameter \"" + std::string(what_) + "\" has no value", name_or(token));
                 return std::nullopt;
             case TokenKind::String: return strings(value) ? std::optional(value) : std::nullopt;
             case TokenKind::Word: break;
@@ -211,6 +212,13 @@ class ValueLexer {
 
   private:
     [[nodiscard]] SourceSpan at(std::size_t offset, std::size_t length) const { return {source_, offset, length}; }
+    /// The parameter's name if it lies in this text; a value that is being edited stands alone.
+    [[nodiscard]] SourceSpan name_or(const Token& token) const {
+        const std::string_view text = lexer_.text();
+        const std::less_equal<const char*> before;
+        const bool inside = before(text.data(), what_.data()) && before(what_.data() + what_.size(), text.data() + text.size());
+        return inside ? at(static_cast<std::size_t>(what_.data() - text.data()), what_.size()) : at(token.offset, token.length);
+    }
     void finish(ValueText& value, std::size_t end) const { value.range.length = end - value.range.offset; }
 
     /// A whole number: names may begin with digits ("0test"), and parameters may be called "info".
@@ -286,6 +294,7 @@ class ValueLexer {
         if (!type || packed_text) {
             diagnostics_.error(Code::AssSyntax, "\"" + std::string(lexer_.text(type_token)) + "\" is no array type", at(type_token.offset, type_token.length),
                                "types are BOOL BYTE INT UINT FLOAT RGB RGBA VECTOR VECTOR2 MATRIX, also with b85 or b64 before, and STRING NODE ENUM");
+            skip_data();
             return false;
         }
         constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
@@ -420,10 +429,10 @@ class ValueLexer {
 
     /// Moves past characters that could still be packed data: up to a line that begins with a name and has more than one word.
     void skip_data() {
-        while (lexer_.peek() != '\0') {
+        for (;;) {
             AssLexer ahead = lexer_;
             const Token token = ahead.next();
-            if (token.kind != TokenKind::Word) return;
+            if (token.kind != TokenKind::Word) return;  // also at the end
             const bool name = token.first_in_line && parse_param_name(lexer_.text(token)) && token.length < 40;
             AssLexer second = ahead;
             if (name && !second.next().first_in_line) return;

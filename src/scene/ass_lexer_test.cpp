@@ -29,7 +29,7 @@ TEST(Numbers, FloatsInEverySpelling) {
 TEST(Numbers, ShortestTextReadsBackToTheSameBits) {
     std::mt19937 random(3);
     for (int i = 0; i < 20000; ++i) {
-        const std::uint32_t bits = random();
+        const auto bits = static_cast<std::uint32_t>(random());
         float value = 0;
         std::memcpy(&value, &bits, sizeof(value));
         if (std::isnan(value)) continue;

@@ -83,7 +83,7 @@ TEST(B85, EveryLetterAndTail) {
         for (std::size_t n = 1; n <= 40; ++n) {
             std::vector<std::uint32_t> values(n);
             // Repeated values in places, so that runs occur.
-            for (std::uint32_t& v : values) v = (random() & 3U) == 0 ? random() & mask : 0x2a & mask;
+            for (std::uint32_t& v : values) v = (random() & 3U) == 0 ? static_cast<std::uint32_t>(random()) & mask : 0x2a;
             EXPECT_EQ(decoded(packed(letter, values), ParamType::UInt, n), values) << letter << n;
         }
     }

@@ -80,9 +80,9 @@ TEST(Damage, UnclosedString) {
 
 TEST(Damage, PackedArrays) {
     EXPECT_EQ(read("m\n{\n v 3 1 b85FLOAT zz\n}\n").errors, "3:4 array-count\n");
-    EXPECT_EQ(read("m\n{\n v 3 1 b85UINT Qzz\n id 3\n}\n").errors, "3:17 array-data\n");
-    EXPECT_EQ(read("m\n{\n v 1 1 b85FLOAT xxxxx\n id 3\n}\n").errors, "3:18 array-data\n");
-    EXPECT_EQ(read("m\n{\n v 4 1 b85FLOAT !z$$$$)\n id 3\n}\n").errors, "3:20 array-data\n");
+    EXPECT_EQ(read("m\n{\n v 3 1 b85UINT Qzz\n id 3\n}\n").errors, "3:16 array-data\n");
+    EXPECT_EQ(read("m\n{\n v 1 1 b85FLOAT xxxxx\n id 3\n}\n").errors, "3:17 array-data\n");
+    EXPECT_EQ(read("m\n{\n v 4 1 b85FLOAT !z$$$$)\n id 3\n}\n").errors, "3:19 array-data\n");
     EXPECT_EQ(read("m\n{\n v 2 1 b85STRING $$$$$\n id 3\n}\n").errors, "3:8 ass-syntax\n");
     EXPECT_EQ(read("m\n{\n v 2 1 b64FLOAT AAAA\n}\n").errors, "3:4 array-count\n");
     const Read r = read("m\n{\n v 3 1 b85UINT Qzz\n zzz$$\n id 3\n}\nm\n{\n name b\n}\n");
