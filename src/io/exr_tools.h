@@ -1,9 +1,8 @@
 // What `lightsieve exr info`, `exr verify` and `exr diff` do; they return plain data, the command line prints.
 //
 // Works on any OpenEXR file; what Arnold and Lightsieve write into the header (`arnold/aovs/<layer>/...`) is used
-// where it is there. `verify` re-checks from the pixels the sums that the renderer proved:
-//     lightsieve/partitions     one a line: "RGBA = diffuse + specular + ..."
-//     lightsieve/light_groups   one group a line; groups X_<group> of all of them and X_default must add up to X
+// where it is there. `verify` re-checks from the pixels the sums that the renderer proved, light groups among them;
+// the attribute `lightsieve/partitions` holds one a line: "RGBA = diffuse + specular + ...".
 #pragma once
 
 #include <cstddef>
