@@ -1,11 +1,14 @@
 // Which events the scene can make, and the engine's numbers for them. See compiler.h.
 #include "render/compiler.h"
+#include "render/faults.h"
 
 namespace lightsieve {
 namespace {
 
 Event event_of(const LobeInfo& lobe) {
     Event event{lobe.kind, lobe.lobe, {}};
+    if (active_fault() == Fault::TransmissionAsDiffuse && lobe.kind == EventKind::Transmission) event.lobe = EventLobe::Diffuse;
+    if (active_fault() == Fault::CoatAsSpecular && lobe.label == "coat") return event;
     if (!lobe.label.empty()) event.labels.push_back(lobe.label);
     return event;
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/sampling.h"
+#include "render/faults.h"
 #include "render/path_log.h"
 
 namespace lightsieve {
@@ -22,6 +24,16 @@ constexpr std::uint32_t kMaxSegments = 1024;
 
 /// The ray of a group as a bit of a mask.
 std::uint32_t bit_of(const PathGroup& group) { return ray_bit(group.key.ray_type); }
+
+#ifdef LIGHTSIEVE_FAULT_INJECTION
+/// Emission of some shader of the scene, or black background if nothing shines.
+Terminal any_object(const Scene& scene) {
+    for (const auto& shader : scene.shaders)
+        for (const LobeRecord& record : shader->records)
+            if (record.kind == EventKind::Object) return {record.terminal, record.event};
+    return {scene.background_record.terminal, scene.background_record.event};
+}
+#endif
 
 }  // namespace
 
@@ -184,7 +196,10 @@ bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
         const SceneLight& light = scene_.lights[index];
         const LightHit at = make_light_hit(scene_.light_objects[hit.object], ray, hit);
         rest.t_min = std::nextafter(hit.t, kInfinity);
-        const Terminal terminal{light.as_light, light.light_event};
+        Terminal terminal{light.as_light, light.light_event};
+#ifdef LIGHTSIEVE_FAULT_INJECTION
+        if (active_fault() == Fault::LightHitAsObject && n_scatter_ > 0) terminal = any_object(scene_);
+#endif
         if (n_scatter_ == 0) {
             // Seen directly: the light stands in the picture as far as its `camera` says.
             const float seen = light.common.camera;
@@ -461,12 +476,25 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
             return false;
         }
 
+    if (active_fault() == Fault::DrawnLobeTakesAll) {
+        Color all;
+        for (Color& factor : factors)
+            all += std::exchange(factor, Color{});
+        factors[channel_of_[drawn]] = all;
+    }
+
     // Every share splits over the channels.
     const std::span<const Channel> channels(channels_.data(), n_channels_);
     const std::span<const Color> by_channel(factors.data(), n_channels_);
     PathGroups::Step step;
     const auto draw = [this](std::uint32_t stream) { return random(16 + stream); };
-    groups_.scatter(channels, by_channel, scene_.depth_rules, draw, step);
+    std::span<const Channel> counted = channels;
+#ifdef LIGHTSIEVE_FAULT_INJECTION
+    std::array<Channel, kMaxChannels> as_drawn;
+    as_drawn.fill(channels_[channel_of_[drawn]]);
+    if (active_fault() == Fault::DepthFromDrawnLobe) counted = std::span<const Channel>(as_drawn.data(), n_channels_);
+#endif
+    groups_.scatter(counted, by_channel, scene_.depth_rules, draw, step);
     tracker_.scatter(channels, by_channel, step, draw);
     ++n_scatter_;
     if (is_black(groups_.total())) return false;
