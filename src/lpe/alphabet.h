@@ -39,9 +39,13 @@ class Alphabet {
     [[nodiscard]] EventClass class_of(std::size_t i) const { return class_of_event_[i]; }
     /// The first event of the class.
     [[nodiscard]] const Event& example(EventClass c) const { return examples_[c]; }
-    /// Is the class a terminal that light arrives from (L, O, B), not a probe?
+    /// Is the class a probe (A)?
+    [[nodiscard]] bool is_probe(EventClass c) const {
+        return examples_[c].kind == EventKind::Albedo;
+    }
+    /// Is the class a terminal that light arrives from (L, O, B)?
     [[nodiscard]] bool is_light(EventClass c) const {
-        return c >= first_terminal() && examples_[c].kind != EventKind::Albedo;
+        return c >= first_terminal() && !is_probe(c);
     }
     /// The classes that a test of one of the expressions takes, as a bit set of `n_words` words.
     [[nodiscard]] std::span<const std::uint32_t> taken_by(const Node& test) const;

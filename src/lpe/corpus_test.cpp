@@ -6,6 +6,7 @@
 
 #include "lpe/lint.h"
 #include "lpe/parse.h"
+#include "lpe/print.h"
 #include "lpe/testing/engines.h"
 #include "lpe/testing/toml.h"
 
@@ -94,13 +95,17 @@ void check_case(const TomlEntry& entry) {
     check_verdicts(expr, entry);
 }
 
-TEST(Corpus, EveryRowHoldsForEveryEngine) {
+std::vector<fs::path> corpus_files() {
     std::vector<fs::path> files;
     for (const auto& file : fs::directory_iterator(LIGHTSIEVE_SOURCE_DIR "/tests/lpe/corpus"))
         if (file.path().extension() == ".toml") files.push_back(file.path());
     std::ranges::sort(files);
+    return files;
+}
+
+TEST(Corpus, EveryRowHoldsForEveryEngine) {
     std::size_t n_cases = 0;
-    for (const fs::path& file : files) {
+    for (const fs::path& file : corpus_files()) {
         for (const TomlEntry& entry : testing::read_toml(file)) {
             SCOPED_TRACE(file.filename().string() + ":" + std::to_string(entry.line) + " " +
                          entry.text("expression"));
@@ -110,6 +115,18 @@ TEST(Corpus, EveryRowHoldsForEveryEngine) {
     }
     // A corpus that was not found must not pass.
     EXPECT_GE(n_cases, 600U);
+}
+
+TEST(Corpus, WhatIsPrintedReadsTheSame) {
+    for (const fs::path& file : corpus_files()) {
+        for (const TomlEntry& entry : testing::read_toml(file)) {
+            Diagnostics diagnostics;
+            const Expr expr = parse(entry.text("expression"), diagnostics);
+            if (!expr) continue;
+            const std::string printed = print(expr);
+            EXPECT_TRUE(equal(expr, parse(printed, diagnostics))) << printed;
+        }
+    }
 }
 
 }  // namespace

@@ -10,20 +10,24 @@ constexpr TermId kUnknown = UINT32_MAX;
 /// A node is at most four words, but for alternations, whose parts count as nodes of their own.
 constexpr std::size_t kWordsPerNode = 4;
 
+bool contains(std::span<const std::uint32_t> set, EventClass c) {
+    return (set[c / 32] >> (c % 32) & 1U) != 0;
+}
+
 }  // namespace
 
 TermPool::TermPool(const Alphabet& alphabet, const Limits& limits)
     : alphabet_(alphabet), limits_(limits) {
-    store(std::array<std::uint32_t, 1>{kNothingKind}, false);
-    store(std::array<std::uint32_t, 1>{kEmptyKind}, true);
+    store(std::array<std::uint32_t, 1>{kNothingKind}, 0);
+    store(std::array<std::uint32_t, 1>{kEmptyKind}, kNullable);
 }
 
 // ---- making terms in normal form ----
 
-TermId TermPool::store(std::span<const std::uint32_t> words, bool nullable) {
+TermId TermPool::store(std::span<const std::uint32_t> words, unsigned flags) {
     const TermId term = terms_.intern(words);
-    if (term < nullable_.size()) return term;
-    nullable_.push_back(nullable ? 1 : 0);
+    if (term < flags_.size()) return term;
+    flags_.push_back(static_cast<std::uint8_t>(flags));
     memo_row_.push_back(0);
     if (terms_.n_words() > limits_.max_nodes * kWordsPerNode)
         throw OverBudget{Code::LimitLpeNodes,
@@ -36,10 +40,13 @@ TermId TermPool::store(std::span<const std::uint32_t> words, bool nullable) {
 TermId TermPool::make_set(std::span<const std::uint32_t> classes) {
     const bool none = std::ranges::all_of(classes, [](std::uint32_t word) { return word == 0; });
     if (none) return kNothing;
-    return store(std::array<std::uint32_t, 2>{kSetKind, sets_.intern(classes)}, false);
+    unsigned flags = 0;
+    for (EventClass c = 0; c < alphabet_.n_classes(); ++c)
+        if (is_rare(c) && contains(classes, c)) flags = kTakesRare;
+    return store(std::array<std::uint32_t, 2>{kSetKind, sets_.intern(classes)}, flags);
 }
 
-/// Nothing absorbs, the empty path vanishes, (ab)c becomes a(bc).
+/// Nothing absorbs, the empty path vanishes, (ab)c becomes a(bc), and `.*` swallows what may be empty after it.
 TermId TermPool::make_sequence(TermId head, TermId tail) {
     if (head == kNothing || tail == kNothing) return kNothing;
     if (head == kEmpty) return tail;
@@ -48,13 +55,19 @@ TermId TermPool::make_sequence(TermId head, TermId tail) {
     for (; kind(head) == kSequenceKind; head = field(head, 2)) heads.push_back(field(head, 1));
     heads.push_back(head);
     for (std::size_t i = heads.size(); i-- > 0;) {
-        const bool nullable = accepts_empty(heads[i]) && accepts_empty(tail);
-        tail = store(std::array<std::uint32_t, 3>{kSequenceKind, heads[i], tail}, nullable);
+        if (is_universal(heads[i]) && accepts_empty(tail) && !takes_rare(tail)) {
+            tail = heads[i];
+            continue;
+        }
+        const unsigned both = flags_[heads[i]] & flags_[tail] & kNullable;
+        const unsigned either = (flags_[heads[i]] | flags_[tail]) & kTakesRare;
+        tail = store(std::array<std::uint32_t, 3>{kSequenceKind, heads[i], tail}, both | either);
     }
     return tail;
 }
 
-/// Flattened, single events united to one set, sorted, without duplicates. Uses `parts` as scratch space.
+/// Flattened, single events united to one set, sorted, without duplicates and without what `.*` takes anyway. Uses
+/// `parts` as scratch space.
 TermId TermPool::make_alternation(std::vector<TermId>& parts) {
     std::vector<std::uint32_t> classes(alphabet_.n_words(), 0);
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -73,25 +86,46 @@ TermId TermPool::make_alternation(std::vector<TermId>& parts) {
     std::ranges::sort(parts);
     parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
     std::erase(parts, kNothing);
+    count_steps(parts.size());
+    const auto universal =
+        std::ranges::find_if(parts, [&](TermId part) { return is_universal(part); });
+    if (universal != parts.end())
+        std::erase_if(parts, [&, all = *universal](TermId part) {
+            return part != all && !takes_rare(part);
+        });
     // Ending here is already possible if another part allows it.
     const auto ends = [&](TermId part) { return part != kEmpty && accepts_empty(part); };
     if (std::ranges::any_of(parts, ends)) std::erase(parts, kEmpty);
-    count_steps(parts.size());
     if (parts.empty()) return kNothing;
     if (parts.size() == 1) return parts[0];
-    const bool nullable =
-        std::ranges::any_of(parts, [&](TermId part) { return accepts_empty(part); });
+    unsigned flags = 0;
+    for (const TermId part : parts) flags |= flags_[part] & (kNullable | kTakesRare);
     parts.insert(parts.begin(), kAlternationKind);
-    return store(parts, nullable);
+    return store(parts, flags);
 }
 
 TermId TermPool::make_repeat(TermId body, std::uint32_t min, std::uint32_t max) {
     if (max == 0 || body == kEmpty) return kEmpty;
     if (body == kNothing) return min == 0 ? kEmpty : kNothing;
-    if (min == 1 && max == 1) return body;
+    if ((min == 1 && max == 1) || is_universal(body)) return body;
     // Repeating what may be empty: every count up to max is possible.
     if (accepts_empty(body)) min = 0;
-    return store(std::array<std::uint32_t, 4>{kRepeatKind, body, min, max}, min == 0);
+    unsigned flags = flags_[body] & kTakesRare;
+    if (min == 0) flags |= kNullable;
+    if (min == 0 && max == Repeat::kUnbounded && takes_all_else(body)) flags |= kUniversal;
+    return store(std::array<std::uint32_t, 4>{kRepeatKind, body, min, max}, flags);
+}
+
+/// Is it a single event that may be any but the camera and a probe?
+bool TermPool::takes_all_else(TermId term) const {
+    if (kind(term) != kSetKind || takes_rare(term)) return false;
+    for (EventClass c = 0; c < alphabet_.n_classes(); ++c)
+        if (!is_rare(c) && !contains(sets_[field(term, 1)], c)) return false;
+    return true;
+}
+
+bool TermPool::is_rare(EventClass c) const {
+    return c == Alphabet::kCamera || alphabet_.is_probe(c);
 }
 
 TermId TermPool::lower(const Expr& expr) { return expr ? lower_node(*expr) : kNothing; }
@@ -136,10 +170,7 @@ TermId TermPool::derive(TermId term, EventClass c) {
 TermId TermPool::derive_now(TermId term, EventClass c) {
     count_steps(1);
     switch (kind(term)) {
-        case kSetKind: {
-            const bool taken = (sets_[field(term, 1)][c / 32] >> (c % 32) & 1U) != 0;
-            return taken ? kEmpty : kNothing;
-        }
+        case kSetKind: return contains(sets_[field(term, 1)], c) ? kEmpty : kNothing;
         case kSequenceKind: return derive_sequence(term, c);
         case kAlternationKind: return derive_alternation(term, c);
         case kRepeatKind: return derive_repeat(term, c);
