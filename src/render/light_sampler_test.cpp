@@ -71,11 +71,12 @@ class Lights {
         bounds.intensity = intensity;
         add(bounds);
     }
-    void add_spot(Vec3f center, Vec3f axis, float half_angle_deg, float intensity) {
+    /// spread_deg  half angle of the cone of normals
+    void add_spot(Vec3f center, Vec3f axis, float half_angle_deg, float intensity, float spread_deg = 0) {
         LightBounds bounds;
         bounds.box.grow(center);
         bounds.axis = axis;
-        bounds.cos_spread = 1;
+        bounds.cos_spread = std::cos(deg_to_rad(spread_deg));
         bounds.cos_emission = std::cos(deg_to_rad(half_angle_deg));
         bounds.intensity = intensity;
         add(bounds);
@@ -209,6 +210,34 @@ TEST(LightSampler, NeverMissesALightThatContributes) {
         }
     }
     EXPECT_GT(contributing, 30000);
+}
+
+TEST(LightSampler, NeverMissesALightOfAClusterThatPointsOneWay) {
+    // Narrow beams in tight groups, each group tilted around its own axis: bounds of groups have to do the work.
+    Random random;
+    Lights lights;
+    struct Beam {
+        Vec3f place, axis;
+        float half_angle_deg;
+    };
+    std::vector<Beam> beams;
+    for (int group = 0; group < 30; ++group) {
+        const Vec3f center = random.in_box(50);
+        const Frame frame = Frame::from_z(random.direction());
+        for (int i = 0; i < 20; ++i) {
+            const float spread = 12 * random.next();
+            const Vec3f axis = frame.world_from_local(sample_uniform_cone(random.next2(), 0.06F));
+            beams.push_back({center + random.in_box(0.1F), axis, spread + 2});
+            lights.add_spot(beams.back().place, axis, 2, 1, spread);
+        }
+    }
+    const LightSampler sampler(lights.span());
+    for (std::uint32_t l = 0; l < lights.size(); ++l)
+        for (int i = 0; i < 20; ++i) {
+            const Vec3f local = sample_uniform_cone({0.999F, random.next()}, 1 - std::cos(deg_to_rad(beams[l].half_angle_deg)));
+            const Vec3f away = Frame::from_z(beams[l].axis).world_from_local(local);
+            EXPECT_GT(sampler.probability(beams[l].place + away * (20 * random.next()), {}, l), 0) << l;
+        }
 }
 
 TEST(LightSampler, ProvesDarkness) {

@@ -540,6 +540,11 @@ TEST(DiskLight, AgreesWithItsClosedForms) {
     expect_sound(*b.light, {0.7F, 0, 0.3F});
     EXPECT_EQ(b.light->sample({0, 3, 0}, {0.4F, 0.4F}).pdf, 0);
     EXPECT_EQ(look(*b.light, {0, 3, 0}, {0, -1, 0}).pdf, 0);
+    // Rays meet a polygon around the disc; its corners do not shine.
+    const Vec3f corner = normalize(std::get<TriangleMesh>(b.light->geometry()->data).positions[0][0] - Vec3f{0, 2, 0});
+    EXPECT_TRUE(cast(*b.light, corner * 1.0005F, {0, 1, 0}).has_value());
+    EXPECT_EQ(look(*b.light, corner * 1.0005F, {0, 1, 0}).pdf, 0);
+    EXPECT_GT(look(*b.light, corner * 0.9995F, {0, 1, 0}).pdf, 0);
 }
 
 TEST(DiskLight, MatrixMakesEllipses) {
