@@ -8,7 +8,7 @@ namespace {
 /// Directions nearer to the horizon are lifted to it: the models divide by wo.z.
 constexpr float kMinCosOut = 1e-5F;
 
-Frame facing(const Frame& frame, Vec3f wo) { return dot(frame.z, wo) < 0 ? Frame{frame.x, -frame.y, -frame.z} : frame; }
+Frame facing(const Frame& frame, Vec3f side) { return dot(frame.z, side) < 0 ? Frame{frame.x, -frame.y, -frame.z} : frame; }
 
 /// Negative to 0; not finite anywhere makes all of it black.
 Color valid_weight(Color c) {
@@ -23,7 +23,7 @@ void ClosureSet::begin(Vec3f wo, const Frame& shading) {
     n_ = n_emissions_ = n_frames_ = 0;
     n_dropped_ = 0;
     scale_ = kWhite;
-    transparency_ = matte_ = kBlack;
+    transparency_ = shadow_transmission_ = matte_ = kBlack;
     records_ = {};
     add_frame(shading);
 }
@@ -31,9 +31,9 @@ void ClosureSet::begin(Vec3f wo, const Frame& shading) {
 std::uint8_t ClosureSet::add_frame(const Frame& frame) {
     // More frames than fit: the shading frame will do for the rest.
     if (n_frames_ == kMaxFrames) return 0;
-    const Frame faced = facing(frame, wo_);
+    const Frame faced = n_frames_ == 0 ? frame : facing(frame, frames_[0].z);
     Vec3f local = faced.local_from_world(wo_);
-    local.z = std::max(local.z, kMinCosOut);
+    if (local.z < kMinCosOut) local = normalize({local.x, local.y, kMinCosOut});
     frames_[n_frames_] = faced;
     wo_local_[n_frames_] = local;
     return static_cast<std::uint8_t>(n_frames_++);

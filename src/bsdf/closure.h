@@ -48,7 +48,8 @@ class ClosureSet {
     static constexpr std::size_t kMaxFrames = 6;
     static constexpr std::size_t kMaxEmissions = 6;
 
-    /// Starts a hit: z of `shading` is the shading normal on the side of `wo`.
+    /// Starts a hit: z of `shading` is the shading normal on the side of the surface that `wo` leaves from. It may lean away
+    /// from `wo` itself (interpolated normals near a silhouette): lobes then see `wo` at the horizon.
     void begin(Vec3f wo, const Frame& shading);
 
     // For shaders ----------------------------------------------------------------------------------------------
@@ -62,12 +63,15 @@ class ClosureSet {
     void add(int lobe, const LobeModel& model, Color weight, bool caustics = true) { add(lobe, model, weight, 0, caustics); }
     /// The same with a frame made by add_frame.
     void add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame, bool caustics);
-    /// Registers a frame (its z on the side of wo); returns its number.
+    /// Registers a frame (turned to the side of the first one); returns its number.
     std::uint8_t add_frame(const Frame& frame);
     /// Adds emission through lobe number `lobe` of the shader.
     void emit(int lobe, Color radiance);
     /// Adds to the part of the hit that rays pass straight through; 1 - opacity.
     void transparent(Color weight) { transparency_ += scale_ * weight; }
+    /// Adds to what shadow rays of diffusely reflected light pass where other rays are refracted: with `caustics` off, glass
+    /// casts tinted shadows instead of focusing light. Makes no event, as opacity.
+    void transmit_shadow(Color weight) { shadow_transmission_ += scale_ * weight; }
     /// The hit is a hole in the picture: black, and alpha is reduced by this.
     void matte(Color weight) { matte_ += scale_ * weight; }
 
@@ -75,6 +79,7 @@ class ClosureSet {
     [[nodiscard]] std::span<const Closure> closures() const { return {closures_.data(), n_}; }
     [[nodiscard]] std::span<const Emission> emissions() const { return {emissions_.data(), n_emissions_}; }
     [[nodiscard]] Color transparency() const { return transparency_; }
+    [[nodiscard]] Color shadow_transmission() const { return shadow_transmission_; }
     [[nodiscard]] Color matte() const { return matte_; }
     /// Closures that did not fit; counted by the renderer, reported at the end.
     [[nodiscard]] std::uint32_t n_dropped() const { return n_dropped_; }
@@ -98,7 +103,7 @@ class ClosureSet {
     std::size_t n_ = 0, n_emissions_ = 0, n_frames_ = 0;
     std::uint32_t n_dropped_ = 0;
     std::span<const LobeRecord> records_;
-    Color scale_{1, 1, 1}, transparency_, matte_;
+    Color scale_{1, 1, 1}, transparency_, shadow_transmission_, matte_;
     Vec3f wo_;
 };
 

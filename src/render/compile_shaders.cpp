@@ -31,6 +31,8 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, int depth) 
         type.prepare(out->block(), context);
     }
     out->may_be_transparent = shader_may_be_transparent(node);
+    const auto* transmission = node.find<float>("transmission");
+    out->may_tint_shadows = transmission != nullptr && (*transmission > 0 || node.is_linked("transmission"));
     scene_->shaders.push_back(std::move(program));
     programs_[&node] = out;
     return out;

@@ -147,6 +147,7 @@ void Compiler::place_shape(const NodeInstance& node) {
     object.receive_shadows = own("receive_shadows").receive_shadows;
     object.self_shadows = own("self_shadows").self_shadows;
     object.may_be_transparent = std::any_of(object.shaders.begin(), object.shaders.end(), [](const ShaderProgram* p) { return p->may_be_transparent; });
+    object.may_tint_shadows = std::any_of(object.shaders.begin(), object.shaders.end(), [](const ShaderProgram* p) { return p->may_tint_shadows; });
     scene_->objects.push_back(std::move(object));
 }
 

@@ -328,15 +328,15 @@ void Integrator<Tracker>::choose_probabilities() {
 
 template <class Tracker>
 float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi, std::span<Color> by_channel) const {
-    // Reflection must leave on the geometric side of wo, transmission on the other: no light leaks through normals.
-    const bool same_side = dot(wi, surface.outward) > 0;
+    // No light leaks through: both normals must agree on which side of the surface wi leaves.
+    const bool sides_agree = (dot(wi, surface.outward) > 0) == (dot(wi, surface.at.normal) > 0);
     const std::span<const Closure> closures = closures_.closures();
     float pdf = 0;
     for (std::size_t i = 0; i < closures.size(); ++i) {
         if (closures_.delta(i)) continue;
         const LobeEval eval = closures_.eval(i, wi);
         pdf += probability_[i] * eval.pdf;
-        if ((closures[i].record->kind == EventKind::Reflection) == same_side) by_channel[channel_of_[i]] += eval.f;
+        if (sides_agree) by_channel[channel_of_[i]] += eval.f;
     }
     return pdf;
 }
@@ -361,65 +361,75 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
     const bool samples_only = light.samples_only || !object.receive_shadows || !object.shadow_lights.empty();
     const float pdf_light = pick.probability * sample.pdf;
     const float weight = sample.delta || samples_only ? 1 : power_heuristic(pdf_light, pdf_lobes);
-    const Color visible = transmittance(surface, pick.light, sample);
-    if (is_black(visible)) return;
-    const Color arriving = sample.radiance * visible * (weight / pdf_light);
+    const Visibility visible = visibility(surface, pick.light, sample);
+    if (is_black(visible.tinted)) return;
+    // What came through glass has no twin among the rays (diffuse rays end at glass), so its light sample stands alone.
+    const Color arriving = sample.radiance * (1 / pdf_light);
+    const Color to_specular = arriving * visible.straight * weight;
+    const Color to_diffuse = to_specular + arriving * (visible.tinted - visible.straight);
     const bool background = light.is_skydome && light.common.aov_indirect;
     const Terminal terminal = background ? Terminal{light.as_background, light.background_event} : Terminal{light.as_light, light.light_event};
     deposit_scattered(terminal, [&](std::size_t g, std::size_t c) {
         const GroupKey& key = groups_[g].key;
         if (key.lights_only || !channel_allowed(key, channels_[c])) return kBlack;
         const LobeRecord& record = *channels_[c].record;
-        return value[c] * arriving * light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface), n_scatter_ + 1);
+        const Color incident = record.lobe == EventLobe::Specular ? to_specular : to_diffuse;
+        return value[c] * incident * light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface), n_scatter_ + 1);
     });
 }
 
 template <class Tracker>
-Color Integrator<Tracker>::transmittance(const Surface& surface, std::uint32_t index, const LightSample& sample) {
+auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index, const LightSample& sample) -> Visibility {
     const SceneLight& light = scene_.lights[index];
     const SceneObject& object = *surface.object;
-    if (!light.common.cast_shadows || !object.receive_shadows) return kWhite;
-    if (!object.shadow_lights.empty() && !object.shadow_lights[index]) return kWhite;
+    if (!light.common.cast_shadows || !object.receive_shadows) return {kWhite, kWhite};
+    if (!object.shadow_lights.empty() && !object.shadow_lights[index]) return {kWhite, kWhite};
     const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
     Ray ray{offset_ray_origin(surface.at.position, side), sample.wi, 0, sample.distance * (1 - kShadowEpsilon), surface.at.time};
-    const Color through = transmittance_along(ray, object.self_shadows ? nullptr : &object);
-    if (light.common.shadow_density == 1 && is_black(light.common.shadow_color)) return through;
-    const Color shadow = (kWhite - through) * light.common.shadow_density;
-    return kWhite - shadow + shadow * light.common.shadow_color;
+    Visibility out = visibility_along(ray, object.self_shadows ? nullptr : &object);
+    if (light.common.shadow_density == 1 && is_black(light.common.shadow_color)) return out;
+    for (Color* through : {&out.straight, &out.tinted}) {
+        const Color shadow = (kWhite - *through) * light.common.shadow_density;
+        *through = kWhite - shadow + shadow * light.common.shadow_color;
+    }
+    return out;
 }
 
 template <class Tracker>
-Color Integrator<Tracker>::transmittance_along(Ray ray, const SceneObject* ignore) {
+auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -> Visibility {
     ++counts.rays;
     const std::uint32_t both = kMaskShadowOpaque | kMaskShadowTransparent;
-    if (ignore == nullptr && scene_.accel->occluded(ray, kMaskShadowOpaque)) return kBlack;
-    if (ignore == nullptr && !scene_.has_transparency) return kWhite;
-    Color through = kWhite;
+    const Visibility dark{kBlack, kBlack};
+    Visibility out{kWhite, kWhite};
+    if (ignore == nullptr && scene_.accel->occluded(ray, kMaskShadowOpaque)) return dark;
+    if (ignore == nullptr && !scene_.has_transparency) return out;
     // The limit counts surfaces that weaken the light; the object itself is passed as often as it takes.
-    for (int passed = 0; passed <= scene_.settings.auto_transparency_depth;) {
+    int guard = 0;
+    for (int passed = 0; passed <= scene_.settings.auto_transparency_depth && guard < static_cast<int>(kMaxSegments); ++guard) {
         RayHit hit;
         ++counts.rays;
-        if (!scene_.accel->intersect(ray, ignore == nullptr ? kMaskShadowTransparent : both, hit)) return through;
+        if (!scene_.accel->intersect(ray, ignore == nullptr ? kMaskShadowTransparent : both, hit)) return out;
         const SceneObject& object = scene_.objects[hit.object];
         const Surface surface = make_surface(object, ray, hit, {});
         const bool one_sided = !surface.at.entering && (object.sidedness & ray_bit(RayType::Shadow)) == 0;
         if (&object != ignore && !one_sided) {
-            if (!object.may_be_transparent) return kBlack;
-            ClosureSet shadow;
+            if (!object.may_be_transparent && !object.may_tint_shadows) return dark;
             ShadePoint at = surface.at;
             at.ray_type = RayType::Shadow;
-            shadow.begin(at.wo, surface.frame);
-            surface.shader->closures(at, shadow);
-            through *= clamp(shadow.transparency(), 0, 1);
-            if (is_black(through)) return kBlack;
+            shadow_closures_.begin(at.wo, surface.frame);
+            surface.shader->closures(at, shadow_closures_);
+            const Color straight = clamp(shadow_closures_.transparency(), 0, 1);
+            out.straight *= straight;
+            out.tinted *= clamp(straight + shadow_closures_.shadow_transmission(), 0, 1);
+            if (is_black(out.tinted)) return dark;
             ++passed;
         }
         const Vec3f origin = offset_ray_origin(surface.at.position, -surface.outward);
         ray.t_max -= dot(origin - ray.origin, ray.direction);
-        if (!(ray.t_max > 0)) return through;
+        if (!(ray.t_max > 0)) return out;
         ray.origin = origin;
     }
-    return kBlack;
+    return dark;
 }
 
 template <class Tracker>
@@ -461,8 +471,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     const bool delta = closures_.delta(drawn);
     float pdf = 0;
     if (delta) {
-        const bool reflected = closures_.closures()[drawn].record->kind == EventKind::Reflection;
-        if (reflected != (dot(sample.wi, surface.outward) > 0)) return false;
+        if ((dot(sample.wi, surface.outward) > 0) != (dot(sample.wi, surface.at.normal) > 0)) return false;
         factors[channel_of_[drawn]] = sample.f * (1 / probability_[drawn]);
     } else {
         pdf = evaluate(surface, sample.wi, factors);

@@ -46,6 +46,11 @@ class Integrator {
         bool delta = true;                      ///< the direction could not have come from a light sample
         bool samples_only = false;              ///< shadows on the surface are tampered with: rays find no lights
     };
+    /// What surfaces between a point and a light let through.
+    struct Visibility {
+        Color straight;   ///< by opacity: rays that meet the light by chance see the same
+        Color tinted;     ///< with what transmissive surfaces let through to diffuse light besides; never less than `straight`
+    };
     /// Numbers of the sampler's pairs of dimensions within a segment of the path.
     struct Dimensions {
         static constexpr std::uint32_t kFirst = 4, kPerSegment = 4;
@@ -76,9 +81,9 @@ class Integrator {
     void deposit(Terminal terminal, const Value& value);
     template <class Value>
     void deposit_scattered(Terminal terminal, const Value& value);
-    /// Light that gets through from the surface to the light: 1, 0 or between for transparent shadows.
-    [[nodiscard]] Color transmittance(const Surface& surface, std::uint32_t light, const LightSample& sample);
-    [[nodiscard]] Color transmittance_along(Ray ray, const SceneObject* ignore);
+    /// How much light gets from the light to the surface.
+    [[nodiscard]] Visibility visibility(const Surface& surface, std::uint32_t light, const LightSample& sample);
+    [[nodiscard]] Visibility visibility_along(Ray ray, const SceneObject* ignore);
     /// Values by channel for a direction, and the mixture's density.
     float evaluate(const Surface& surface, Vec3f wi, std::span<Color> by_channel) const;
     [[nodiscard]] float light_factor(const LightCommon& light, RayType type, int n_scatter) const;
@@ -89,7 +94,7 @@ class Integrator {
     const Scene& scene_;
     Tracker tracker_;
     PathGroups groups_;
-    ClosureSet closures_;
+    ClosureSet closures_, shadow_closures_;
     const Sampler* sampler_ = nullptr;
     SampleBuffer* out_ = nullptr;
     LastVertex last_;

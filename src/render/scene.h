@@ -35,7 +35,8 @@ struct SceneObject {
     std::uint32_t id = 0;
     std::uint8_t visibility = 255, sidedness = 255;
     bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;
-    bool may_be_transparent = false;
+    bool may_be_transparent = false;       ///< rays may pass straight through
+    bool may_tint_shadows = false;         ///< shadow rays may, though other rays do not
 };
 
 struct SceneLight {

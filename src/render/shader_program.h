@@ -48,6 +48,8 @@ class ShaderProgram {
     std::vector<LobeRecord> records;
     /// Whether rays may pass straight through what this shader covers.
     bool may_be_transparent = false;
+    /// Whether shadow rays may pass where others are refracted (ClosureSet::transmit_shadow).
+    bool may_tint_shadows = false;
 
   private:
     struct FreeBlock {

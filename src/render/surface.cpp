@@ -89,13 +89,6 @@ LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const Mat4f& ob
     return out;
 }
 
-/// Turns the shading normal so that wo lies on its side: interpolated normals can face away near silhouettes.
-Vec3f facing(Vec3f normal, Vec3f wo) {
-    constexpr float kLeast = 1e-3F;  // cosine kept between the two
-    const float cosine = dot(normal, wo);
-    return cosine >= kLeast ? normal : normalize(normal + wo * (kLeast - cosine), wo);
-}
-
 }  // namespace
 
 Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit, const Footprint& footprint) {
@@ -116,7 +109,8 @@ Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hi
     at.geometric_normal = geometric;
     at.entering = dot(geometric, wo) >= 0;
     out.outward = at.entering ? geometric : -geometric;
-    at.normal = facing(dot(shading, out.outward) < 0 ? -shading : shading, wo);
+    // Interpolated normals may lean away from the viewer; bending them back would darken silhouettes, and Arnold does not.
+    at.normal = dot(shading, out.outward) < 0 ? -shading : shading;
     const Vec3f tangent = place.world_from_object.vector(local.dp_du);
     out.frame = Frame::from_z_x(at.normal, tangent);
     at.tangent = out.frame.x;

@@ -141,9 +141,10 @@ class Layering {
             const Color weight = left_ * (transmission_ * positive(s_.transmission_color));
             const GgxAlpha alpha = specular_alpha(roughness(s_.transmission_extra_roughness));
             const LobeModel model = s_.thin_walled
-                                        ? LobeModel(ThinTransmit(alpha))
+                                        ? LobeModel(ThinTransmit())
                                         : LobeModel(DielectricTransmit(alpha, relative_ior()));
             out_.add(kTransmission, model, weight, specular_frame().index, s_.caustics);
+            if (!s_.caustics) out_.transmit_shadow(weight);
         }
         left_ *= 1 - transmission_;
     }
