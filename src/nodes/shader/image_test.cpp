@@ -1,0 +1,158 @@
+// image: parameters, missing files.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "io/image_write.h"
+#include "io/texture.h"
+#include "nodes/common/node_test_support.h"
+#include "scene/shade_point.h"
+
+namespace lightsieve {
+
+NodeType node_image();
+
+namespace {
+
+/// A node's surroundings with textures and files.
+class AssetContext final : public NodeContext {
+  public:
+    [[nodiscard]] Diagnostics& diagnostics() override { return plain.diagnostics(); }
+    [[nodiscard]] SourceSpan where(Name param) const override { return plain.where(param); }
+    [[nodiscard]] Name node_name() const override { return plain.node_name(); }
+    [[nodiscard]] ColorInput color_input(Name param) override { return plain.color_input(param); }
+    [[nodiscard]] bool is_linked(Name param) const override { return plain.is_linked(param); }
+    [[nodiscard]] TextureCache& textures() override { return cache; }
+    [[nodiscard]] std::optional<std::string> find_asset(std::string_view name) const override {
+        const std::string path = (folder / name).string();
+        return !name.empty() && std::filesystem::exists(path) ? std::optional(path) : std::nullopt;
+    }
+    [[nodiscard]] bool ignore_missing_textures() const override { return ignore_missing; }
+    [[nodiscard]] Frame frame() const override { return plain.frame(); }
+    [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(NodeRef shape, Mat4f& matrix) override { return plain.geometry_of(shape, matrix); }
+
+    TestContext plain;
+    TextureCache cache;
+    std::filesystem::path folder;
+    bool ignore_missing = false;
+};
+
+class ImageNodeTest : public testing::Test {
+  protected:
+    ImageNodeTest() {
+        context_.folder = std::filesystem::temp_directory_path() / ("lightsieve-image-" + std::to_string(::getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+        std::filesystem::create_directories(context_.folder);
+        // Upper row red, green; lower row blue, white; then a float file of one texel.
+        PictureSpec spec;
+        spec.width = spec.height = 2;
+        spec.n_channels = 3;
+        write_picture((context_.folder / "a.png").string(), spec, std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1});
+        spec.width = spec.height = 1;
+        spec.n_channels = 4;
+        spec.format = PictureFormat::Tiff;
+        spec.type = PictureType::Float;
+        write_picture((context_.folder / "one.tif").string(), spec, std::vector<float>{0.5F, 2, 3, 0.25F});
+        node_.set("filename", Name("a.png")).set("color_space", Name("")).set_enum("filter", 0);
+    }
+    ~ImageNodeTest() override {
+        std::error_code ec;
+        std::filesystem::remove_all(context_.folder, ec);
+    }
+    void prepare() { node_.type().prepare(node_.block(), context_); }
+    [[nodiscard]] Rgba at(float u, float v) const {
+        ShadePoint point;
+        point.uv = {u, v};
+        return node_.type().eval_value(node_.block(), point);
+    }
+    [[nodiscard]] Color color_at(float u, float v) const { return at(u, v).rgb; }
+
+    AssetContext context_;
+    TestNode node_{node_image()};
+};
+
+const Color kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1};
+
+TEST_F(ImageNodeTest, VGoesUp) {
+    prepare();
+    EXPECT_EQ(color_at(0.25F, 0.75F), kRed);
+    EXPECT_EQ(color_at(0.75F, 0.75F), kGreen);
+    EXPECT_EQ(color_at(0.25F, 0.25F), kBlue);
+    EXPECT_EQ(color_at(0.75F, 0.25F), kWhite);
+    EXPECT_EQ(color_at(1.25F, -0.25F), kRed);  // periodic
+}
+
+TEST_F(ImageNodeTest, CoordinatesMayBeScaledMovedFlippedAndSwapped) {
+    node_.set("sflip", true);
+    prepare();
+    EXPECT_EQ(color_at(0.75F, 0.75F), kRed);
+    node_.set("sflip", false).set("tflip", true);
+    prepare();
+    EXPECT_EQ(color_at(0.25F, 0.25F), kRed);
+    node_.set("tflip", false).set("swap_st", true);
+    prepare();
+    EXPECT_EQ(color_at(0.25F, 0.75F), kWhite);
+    EXPECT_EQ(color_at(0.75F, 0.25F), kRed);
+    node_.set("swap_st", false).set("sscale", 2.0F).set("soffset", 0.5F);
+    prepare();
+    EXPECT_EQ(color_at(0.125F, 0.75F), kGreen);  // s = 0.75
+}
+
+TEST_F(ImageNodeTest, WrapModes) {
+    node_.set_enum("swrap", 2).set_enum("twrap", 1);
+    prepare();
+    EXPECT_EQ(color_at(7, 0.75F), kGreen);
+    EXPECT_EQ(color_at(0.25F, 1.75F), kBlack);
+    node_.set_enum("swrap", 5).set_enum("twrap", 3).set("missing_texture_color", Rgba{{0.1F, 0.2F, 0.3F}, 0.4F});
+    prepare();
+    EXPECT_EQ(at(1.25F, 0.75F), (Rgba{{0.1F, 0.2F, 0.3F}, 0.4F}));
+    EXPECT_EQ(color_at(0.25F, 1.25F), kRed);
+    EXPECT_EQ(color_at(0.75F, 0.25F), kWhite);
+}
+
+TEST_F(ImageNodeTest, MultiplyOffsetAlphaAndChannels) {
+    node_.set("filename", Name("one.tif")).set("multiply", Color(2, 0.5F, 1)).set("offset", Color(0, 0, 1));
+    prepare();
+    EXPECT_EQ(at(0.5F, 0.5F), (Rgba{{1, 1, 4}, 0.25F}));
+    node_.set("multiply", kWhite).set("offset", kBlack).set("single_channel", true).set("start_channel", std::int32_t{1});
+    prepare();
+    EXPECT_EQ(at(0.5F, 0.5F), (Rgba{{2, 2, 2}, 1}));
+}
+
+TEST_F(ImageNodeTest, ColorSpacesApply) {
+    node_.set("color_space", Name("auto"));
+    prepare();
+    const Color green = ColorConversion(kSrgb, kRenderingSpace)(kGreen);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(color_at(0.75F, 0.75F)[i], green[i], 1e-5F);
+}
+
+TEST_F(ImageNodeTest, LinkedCoordinatesReplaceTheShapes) {
+    node_.set("uvcoords", Vec2f{0.75F, 0.75F});
+    prepare();
+    EXPECT_EQ(color_at(0.25F, 0.75F), kRed);
+    context_.plain.linked.insert("uvcoords");
+    prepare();
+    EXPECT_EQ(color_at(0.25F, 0.75F), kGreen);
+}
+
+TEST_F(ImageNodeTest, MissingFilesAreErrorsUnlessIgnored) {
+    node_.set("filename", Name("none.png")).set("missing_texture_color", Rgba{{0.1F, 0.2F, 0.3F}, 0.4F});
+    prepare();
+    ASSERT_EQ(context_.diagnostics().n_errors(), 1U);
+    EXPECT_EQ(context_.diagnostics().items()[0].code, Code::FileNotFound);
+    EXPECT_EQ(context_.diagnostics().items()[0].where.text(), "filename");
+
+    for (const bool by_options : {true, false}) {
+        AssetContext quiet;
+        quiet.ignore_missing = by_options;
+        node_.set("ignore_missing_textures", !by_options);
+        node_.type().prepare(node_.block(), quiet);
+        EXPECT_EQ(quiet.diagnostics().n_errors(), 0U);
+        EXPECT_EQ(quiet.diagnostics().n_warnings(), 1U);
+        EXPECT_EQ(at(0.5F, 0.5F), (Rgba{{0.1F, 0.2F, 0.3F}, 0.4F}));
+    }
+}
+
+}  // namespace
+}  // namespace lightsieve
