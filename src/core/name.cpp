@@ -4,13 +4,24 @@
 #include <unordered_set>
 
 namespace lightsieve {
+namespace {
+
+/// Lets a set of strings be searched without making a string: most names are known already.
+struct TextHash {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>{}(text); }
+};
+using NameSet = std::unordered_set<std::string, TextHash, std::equal_to<>>;
+
+}  // namespace
 
 Name::Name(std::string_view text) {
     if (text.empty()) return;
     static std::mutex mutex;
-    static auto* names = new std::unordered_set<std::string>;  // never destroyed: names outlive every static object
+    static auto* names = new NameSet;  // never destroyed: names outlive every static object
     const std::lock_guard lock(mutex);
-    text_ = &*names->emplace(text).first;
+    const auto found = names->find(text);
+    text_ = found != names->end() ? &*found : &*names->emplace(text).first;
 }
 
 }  // namespace lightsieve
