@@ -56,21 +56,62 @@ void for_each_visible_normal(double mu, double alpha, const std::function<void(d
 
 constexpr double kPointWeight = 1.0 / (kPoints * kPoints);
 
-/// E and the two moments.
-std::array<double, kWhiteValues> white(double mu, double alpha) {
-    std::array<double, kWhiteValues> sum{};
-    for_each_visible_normal(mu, alpha, [&](double c, double, double weight) {
-        const double m = 1 - c, m5 = m * m * m * m * m;
-        sum[0] += weight;
-        sum[1] += weight * m5;
-        sum[2] += weight * c * m * m5;
-    });
-    return {sum[0] * kPointWeight, sum[1] / sum[0], sum[2] / sum[0]};
+double white(double mu, double alpha) {
+    double sum = 0;
+    for_each_visible_normal(mu, alpha, [&](double, double, double weight) { sum += weight; });
+    return sum * kPointWeight;
+}
+
+/// The Gauss quadrature of three points of the distribution of the cosine at the microfacets that reflect.
+std::array<double, kMeanValues> mean_cosines(double mu, double alpha) {
+    std::vector<std::array<double, 2>> points;  // cosine, weight
+    for_each_visible_normal(mu, alpha, [&](double c, double, double weight) { points.push_back({c, weight}); });
+
+    // Coefficients of the recurrence of the orthogonal polynomials, by Stieltjes' procedure.
+    std::array<double, 3> a{}, b{};
+    std::vector<double> before(points.size(), 0), now(points.size(), 1);
+    double norm_before = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        double norm = 0, first = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            norm += points[i][1] * now[i] * now[i];
+            first += points[i][1] * now[i] * now[i] * points[i][0];
+        }
+        a[k] = first / norm;
+        b[k] = k == 0 ? 0 : norm / norm_before;
+        norm_before = norm;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double next = (points[i][0] - a[k]) * now[i] - b[k] * before[i];
+            before[i] = now[i];
+            now[i] = next;
+        }
+    }
+
+    // The nodes are the roots of the third polynomial, one between each two of 0, the roots of the second, and 1.
+    const auto p1 = [&](double x) { return x - a[0]; };
+    const auto p2 = [&](double x) { return (x - a[1]) * p1(x) - b[1]; };
+    const auto p3 = [&](double x) { return (x - a[2]) * p2(x) - b[2] * p1(x); };
+    const double middle = (a[0] + a[1]) / 2, half = std::sqrt((a[0] - a[1]) * (a[0] - a[1]) / 4 + b[1]);
+    const std::array<double, 4> between{0, middle - half, middle + half, 1};
+    std::array<double, kMeanValues> result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        double low = between[i], high = between[i + 1];
+        const bool rising = i != 1;
+        for (int step = 0; step < 60; ++step) {
+            const double x = (low + high) / 2;
+            ((p3(x) < 0) == rising ? low : high) = x;
+        }
+        // Christoffel number: 1 / sum of the squares of the normalised polynomials.
+        const double x = (low + high) / 2;
+        result[i] = x;
+        if (i < 2) result[3 + i] = 1 / (1 + p1(x) * p1(x) / b[1] + p2(x) * p2(x) / (b[1] * b[2]));
+    }
+    return result;
 }
 
 /// R (inside with compensation, as DielectricReflect) and T / (1 - R).
 std::array<double, 2> dielectric(double mu, double alpha, double eta) {
-    const double lost = eta < 1 ? 1 / white(mu, alpha)[0] - 1 : 0;
+    const double lost = eta < 1 ? 1 / white(mu, alpha) - 1 : 0;
     double reflected = 0, refracted = 0;
     for_each_visible_normal(mu, alpha, [&](double c, double normal_z, double weight) {
         const Fresnel f = fresnel(c, eta);
@@ -131,19 +172,19 @@ void print(double value) {
     std::printf("%ld,%c", std::lround(std::clamp(value, -1.0, 1.09) * static_cast<double>(kScale)), ++column % 24 == 0 ? '\n' : ' ');
 }
 
-void print_white() {
-    for (int a = 0; a < kWhiteAlpha; ++a) {
-        const double alpha = alpha_of(node(a, kWhiteAlpha));
-        for (int m = 0; m < kWhiteCos; ++m) {
-            const double mu = inverse(static_cast<double>(kMinCos), 1, node(m, kWhiteCos), [&](float c) { return white_cos_coordinate(c, static_cast<float>(alpha)); });
-            for (const double value : white(mu, alpha)) print(value);
-        }
+/// Calls body(cos theta, alpha) at the nodes of a table of white microfacets.
+void for_each_white_node(int n_cos, int n_alpha, const std::function<void(double, double)>& body) {
+    for (int a = 0; a < n_alpha; ++a) {
+        const double alpha = alpha_of(node(a, n_alpha));
+        const auto coordinate = [&](float c) { return white_cos_coordinate(c, static_cast<float>(alpha)); };
+        for (int m = 0; m < n_cos; ++m) body(inverse(static_cast<double>(kMinCos), 1, node(m, n_cos), coordinate), alpha);
     }
 }
 
 void print_dielectric(bool inside) {
-    for (int e = 0; e < kDielectricEta; ++e) {
-        const double outer = std::max(1.0001, inverse(1, static_cast<double>(lightsieve::kMaxEta), node(e, kDielectricEta), eta_coordinate));
+    const int n_eta = inside ? kInsideEta : kOutsideEta;
+    for (int e = 0; e < n_eta; ++e) {
+        const double outer = std::max(1.0001, inverse(1, static_cast<double>(lightsieve::kMaxEta), node(e, n_eta), eta_coordinate));
         const double eta = inside ? 1 / outer : outer;
         for (int a = 0; a < kDielectricAlpha; ++a) {
             const double alpha = alpha_of(node(a, kDielectricAlpha));
@@ -165,17 +206,28 @@ void print_sheen() {
             print(sheen(inverse(static_cast<double>(kMinCos), 1, node(m, kSheenCos), sheen_cos_coordinate), smallest + (1 - smallest) * node(r, kSheenRoughness)));
 }
 
+void begin_table(const char* name, const char* size) { std::printf("inline constexpr std::array<std::int16_t, %s> %s{\n", size, name); }
+
 }  // namespace
 
 int main() {
     std::puts("// Written by tools/make_albedo_table.cpp; the layout is in albedo_grid.h.");
-    std::puts("inline constexpr std::array<std::int16_t, kWhiteAlpha * kWhiteCos * kWhiteValues> kWhiteData{");
-    print_white();
-    std::puts("};\ninline constexpr std::array<std::int16_t, kDielectricEta * kDielectricAlpha * kDielectricCos * kDielectricValues> kOutsideData{");
+    begin_table("kWhiteData", "kWhiteAlpha * kWhiteCos");
+    for_each_white_node(kWhiteCos, kWhiteAlpha, [](double mu, double alpha) { print(white(mu, alpha)); });
+    std::puts("};");
+    begin_table("kMeanData", "kMeanAlpha * kMeanCos * kMeanValues");
+    for_each_white_node(kMeanCos, kMeanAlpha, [](double mu, double alpha) {
+        for (const double value : mean_cosines(mu, alpha)) print(value);
+    });
+    std::puts("};");
+    begin_table("kOutsideData", "kOutsideEta * kDielectricAlpha * kDielectricCos * kDielectricValues");
     print_dielectric(false);
-    std::puts("};\ninline constexpr std::array<std::int16_t, kDielectricEta * kDielectricAlpha * kDielectricCos * kDielectricValues> kInsideData{");
+    std::puts("};");
+    begin_table("kInsideData", "kInsideEta * kDielectricAlpha * kDielectricCos * kDielectricValues");
     print_dielectric(true);
-    std::puts("};\ninline constexpr std::array<std::int16_t, kSheenRoughness * kSheenCos> kSheenData{");
+    std::puts("};");
+    begin_table("kSheenData", "kSheenRoughness * kSheenCos");
     print_sheen();
     std::puts("};");
+    return 0;
 }

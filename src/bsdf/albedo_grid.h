@@ -10,12 +10,12 @@
 
 namespace lightsieve::albedo_grid {
 
-/// Nodes of the tables of white microfacets: cos theta, alpha.
+/// Nodes of the table of E, the albedo of white microfacets: cos theta, alpha.
 inline constexpr int kWhiteCos = 32, kWhiteAlpha = 32;
-/// Moments of the white table: E, and the means of (1 - c)^5 and c (1 - c)^6, c = cosine at the microfacet.
-inline constexpr int kWhiteValues = 3;
+/// Nodes of the table of mean cosines; three cosines and the weights of the first two of them.
+inline constexpr int kMeanCos = 24, kMeanAlpha = 16, kMeanValues = 5;
 /// Nodes of the tables of dielectrics, one for each side: cos theta, alpha, eta.
-inline constexpr int kDielectricCos = 24, kDielectricAlpha = 16, kDielectricEta = 12;
+inline constexpr int kDielectricCos = 24, kDielectricAlpha = 16, kOutsideEta = 12, kInsideEta = 16;
 /// Values of a dielectric table: R - base * Fresnel, and T / (1 - R).
 inline constexpr int kDielectricValues = 2;
 /// Nodes of the sheen table: cos theta, roughness.
@@ -33,7 +33,7 @@ inline constexpr int kCriticalNode = 14;
     return (std::sqrt(alpha) - smallest) / (1 - smallest);
 }
 
-/// cos theta to [0,1], white table: half of the nodes lie below 2 alpha.
+/// cos theta to [0,1], tables of white microfacets: half of the nodes lie below 2 alpha.
 [[nodiscard]] inline float white_cos_coordinate(float cos_theta, float alpha) {
     const float k = 2 * alpha;
     return cos_theta * (1 + k) / (cos_theta + k);

@@ -32,30 +32,13 @@ float bilinear(const std::int16_t* p, int stride_x, float tx, int stride_y, floa
     return lerp(along(p, stride_x, tx), along(p + stride_y, stride_x, tx), ty);
 }
 
-/// Entry of the white table below (cos theta, alpha); the values of an entry follow one another.
-struct WhiteEntry {
-    const std::int16_t* p;
-    float t_cos, t_alpha;
-    [[nodiscard]] float value(int i) const { return bilinear(p + i, kWhiteValues, t_cos, kWhiteCos * kWhiteValues, t_alpha) * (1 / kScale); }
-};
-
-WhiteEntry white_entry(float cos_theta, float alpha) {
-    const Cell a = cell(alpha_coordinate(alpha), kWhiteAlpha);
-    const Cell c = cell(white_cos_coordinate(cos_theta, alpha), kWhiteCos);
-    return {kWhiteData.data() + (a.index * kWhiteCos + c.index) * kWhiteValues, c.t, a.t};
-}
-
-/// R of a rough interface, and the share of the rest that gets through.
-struct DielectricEntry {
-    float reflected, share;
-};
-
-DielectricEntry dielectric_entry(float cos_theta, float alpha, float eta) {
-    const Cell e = cell(eta_coordinate(eta >= 1 ? eta : 1 / eta), kDielectricEta);
+DielectricShares rough_dielectric(float cos_theta, float alpha, float eta) {
+    const bool outside = eta >= 1;
+    const Cell e = cell(eta_coordinate(outside ? eta : 1 / eta), outside ? kOutsideEta : kInsideEta);
     const Cell a = cell(alpha_coordinate(alpha), kDielectricAlpha);
     const Cell c = cell(dielectric_cos_coordinate(cos_theta, alpha, eta), kDielectricCos);
     constexpr int kStrideAlpha = kDielectricCos * kDielectricValues, kStrideEta = kDielectricAlpha * kStrideAlpha;
-    const std::int16_t* p = (eta >= 1 ? kOutsideData : kInsideData).data() + e.index * kStrideEta + a.index * kStrideAlpha + c.index * kDielectricValues;
+    const std::int16_t* p = (outside ? kOutsideData.data() : kInsideData.data()) + e.index * kStrideEta + a.index * kStrideAlpha + c.index * kDielectricValues;
     const auto value = [&](int i) {
         const float near = bilinear(p + i, kDielectricValues, c.t, kStrideAlpha, a.t);
         const float far = bilinear(p + i + kStrideEta, kDielectricValues, c.t, kStrideAlpha, a.t);
@@ -67,27 +50,29 @@ DielectricEntry dielectric_entry(float cos_theta, float alpha, float eta) {
 
 }  // namespace
 
-float ggx_albedo(float cos_theta, float alpha) noexcept { return alpha < kSmoothAlpha ? 1 : white_entry(cos_theta, alpha).value(0); }
-
-GgxMoments ggx_moments(float cos_theta, float alpha) noexcept {
-    if (alpha < kSmoothAlpha) {
-        const float m = 1 - cos_theta, m5 = square(square(m)) * m;
-        return {1, m5, cos_theta * m * m5};
-    }
-    const WhiteEntry entry = white_entry(cos_theta, alpha);
-    return {entry.value(0), entry.value(1), entry.value(2)};
+float ggx_albedo(float cos_theta, float alpha) noexcept {
+    if (alpha < kSmoothAlpha) return 1;
+    const Cell a = cell(alpha_coordinate(alpha), kWhiteAlpha);
+    const Cell c = cell(white_cos_coordinate(cos_theta, alpha), kWhiteCos);
+    return bilinear(kWhiteData.data() + a.index * kWhiteCos + c.index, 1, c.t, kWhiteCos, a.t) * (1 / kScale);
 }
 
-float dielectric_albedo(float cos_theta, float alpha, float eta) noexcept {
-    if (alpha < kSmoothAlpha) return fresnel_dielectric(cos_theta, eta).reflectance;
-    return dielectric_entry(cos_theta, alpha, eta).reflected;
+MeanCosines ggx_mean_cosines(float cos_theta, float alpha) noexcept {
+    if (alpha < kSmoothAlpha) return {{cos_theta, cos_theta, cos_theta}, {0, 0, 1}};
+    const Cell a = cell(alpha_coordinate(alpha), kMeanAlpha);
+    const Cell c = cell(white_cos_coordinate(cos_theta, alpha), kMeanCos);
+    const std::int16_t* p = kMeanData.data() + (a.index * kMeanCos + c.index) * kMeanValues;
+    const auto value = [&](int i) { return bilinear(p + i, kMeanValues, c.t, kMeanCos * kMeanValues, a.t) * (1 / kScale); };
+    const float first = value(3), second = value(4);
+    return {{value(0), value(1), value(2)}, {first, second, 1 - first - second}};
 }
 
-float dielectric_transmittance(float cos_theta, float alpha, float eta) noexcept {
-    if (alpha < kSmoothAlpha) return 1 - fresnel_dielectric(cos_theta, eta).reflectance;
-    const DielectricEntry entry = dielectric_entry(cos_theta, alpha, eta);
-    return (1 - entry.reflected) * entry.share;
+DielectricShares dielectric_shares(float cos_theta, float alpha, float eta) noexcept {
+    if (alpha < kSmoothAlpha) return {fresnel_dielectric(cos_theta, eta).reflectance, 1};
+    return rough_dielectric(cos_theta, alpha, eta);
 }
+
+float dielectric_albedo(float cos_theta, float alpha, float eta) noexcept { return dielectric_shares(cos_theta, alpha, eta).reflected; }
 
 float sheen_albedo(float cos_theta, float roughness) noexcept {
     const Cell r = cell((roughness - kMinSheenRoughness) / (1 - kMinSheenRoughness), kSheenRoughness);

@@ -1,10 +1,8 @@
 // Metal: GGX microfacets with the exact Fresnel reflectance of a complex index, per channel.
 //
-// Single scattering is scaled by 1 + F0 (1 - E) / E, with E the directional albedo of white microfacets, so that
-// light that bounces among the facets is not lost: a white metal returns everything at any roughness. The factor
-// depends on wo only, hence the model is not exactly reciprocal.
-// Sources: Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014; Turquin, "Practical multiple scattering
-// compensation for microfacet models", 2019, eq. 16.
+// Light that bounces among the facets is compensated (ggx_compensation.h), so a white metal returns everything at any
+// roughness. albedo() takes the Fresnel curve at three mean cosines; it is within 0.02 of the integral.
+// Source: Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014.
 #pragma once
 
 #include "bsdf/ggx.h"
@@ -19,7 +17,7 @@ struct ConductorReflect {
     Color k{0, 0, 0};  ///< extinction
 
     ConductorReflect() = default;
-    /// n and k; negative and not finite become 0.
+    /// n and k; negative and NaN become 0, infinite very large.
     ConductorReflect(GgxAlpha roughness, Color index, Color extinction) noexcept;
     /// The metal with the given reflectance facing the viewer and `edge_tint` (0..1, 1 = brightest) toward the edge.
     [[nodiscard]] static ConductorReflect from_artistic(GgxAlpha roughness, Color reflectivity, Color edge_tint) noexcept;

@@ -1,13 +1,16 @@
 #include "bsdf/dielectric.h"
 
-#include "bsdf/albedo_table.h"
 #include "bsdf/fresnel.h"
+#include "bsdf/ggx_compensation.h"
 
 namespace lightsieve {
 namespace {
 
 /// Indices nearer to 1 than this times 1 / alpha blur less than kSmoothAlpha.
 constexpr float kMatchedIndex = 0.5F * kSmoothAlpha;
+
+/// Refraction is not scaled up beyond this share: at the horizon inside of rough media few samples would carry all.
+constexpr float kMinRefracted = 0.15F;
 
 float valid_eta(float eta) { return std::isfinite(eta) ? std::clamp(eta, 1 / kMaxEta, kMaxEta) : 1.0F; }
 
@@ -20,10 +23,7 @@ struct FacetReflectance {
     }
 };
 
-/// (1 - E) / E inside rough media, 0 elsewhere.
-FacetReflectance facet_reflectance(Vec3f wo, GgxAlpha alpha, float eta) {
-    return {eta, eta < 1 && !alpha.smooth() ? 1 / ggx_albedo(wo.z, alpha.mean()) - 1 : 0.0F};
-}
+FacetReflectance facet_reflectance(Vec3f wo, GgxAlpha alpha, float eta) { return {eta, eta < 1 ? ggx_lost(wo, alpha) : 0.0F}; }
 
 /// Value and density of refraction; the microfacet is described by its cosines.
 /// h_length  |wo + eta wi|
@@ -32,8 +32,9 @@ LobeEval refraction(Vec3f wo, Vec3f wi, GgxAlpha alpha, float eta, float d, floa
     // Walter et al. 2007, eq. 17 and 21, with D G1 of visible normals; f * cos = pdf * (1 - F) G1(wi) / T.
     const float pdf = 2 * d * cos_o * cos_i * square(eta / h_length) / (wo.z + v_o);
     const float masking = -2 * wi.z / (v_i - wi.z);
-    const float normalised = (1 - fresnel) / dielectric_transmittance(wo.z, alpha.mean(), eta);
-    return {Color::grey(pdf * masking * normalised), pdf};
+    const DielectricShares shares = dielectric_shares(wo.z, alpha.toward(wo), eta);
+    const float t = (1 - shares.reflected) * std::max(shares.refracted, kMinRefracted);
+    return {Color::grey(t > 0 ? pdf * masking * (1 - fresnel) / t : 0.0F), pdf};
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ LobeSample DielectricReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {
     return ggx_sample_reflection_lobe(wo, u, alpha, facet_reflectance(wo, alpha, eta));
 }
 
-Color DielectricReflect::albedo(Vec3f wo) const noexcept { return Color::grey(dielectric_albedo(wo.z, alpha.mean(), eta)); }
+Color DielectricReflect::albedo(Vec3f wo) const noexcept { return Color::grey(dielectric_albedo(wo.z, alpha.toward(wo), eta)); }
 
 DielectricTransmit::DielectricTransmit(GgxAlpha roughness, float relative_ior) noexcept : alpha(roughness), eta(valid_eta(relative_ior)) {}
 
@@ -86,7 +87,8 @@ LobeSample DielectricTransmit::sample(Vec3f wo, Vec2f u, float) const noexcept {
 }
 
 Color DielectricTransmit::albedo(Vec3f wo) const noexcept {
-    return delta() && !(fresnel_dielectric(wo.z, eta).cos_far > 0) ? kBlack : kWhite;
+    if (delta()) return fresnel_dielectric(wo.z, eta).cos_far > 0 ? kWhite : kBlack;
+    return Color::grey(std::min(dielectric_shares(wo.z, alpha.toward(wo), eta).refracted / kMinRefracted, 1.0F));
 }
 
 }  // namespace lightsieve

@@ -13,7 +13,7 @@ constexpr float kFon2 = 2.0F / 3 - 28 / (15 * kPi);
 float fon_albedo(float mu, float roughness, float a) {
     const float m = 1 - mu;
     const float g_over_pi = m * (0.0571085289F + m * (0.491881867F + m * (-0.332181442F + m * 0.0714429953F)));
-    return a * (1 + roughness * g_over_pi);
+    return std::min(a * (1 + roughness * g_over_pi), 1.0F);
 }
 
 /// Reflectance of the multiple-scattering part, eq. 26; `mean` is the mean albedo of single scattering.
@@ -46,7 +46,7 @@ Color DiffuseSurface::value(Vec3f wo, Vec3f wi) const noexcept {
     // Multiple scattering: what single scattering loses at both ends (eq. 24).
     const float mean = a * (1 + kFon2 * roughness);
     const float lost_o = 1 - fon_albedo(wo.z, roughness, a), lost_i = 1 - fon_albedo(wi.z, roughness, a);
-    const float twice = std::max(lost_o, 0.0F) * std::max(lost_i, 0.0F) / (1 - mean);
+    const float twice = lost_o * lost_i / (1 - mean);
     return (color * single + multiple(color, mean) * twice) * (kInvPi * wi.z);
 }
 
@@ -54,7 +54,7 @@ Color DiffuseSurface::albedo(float cos_theta_o) const noexcept {
     if (roughness == 0) return color;
     const float a = 1 / (1 + kFon1 * roughness);
     const float single = fon_albedo(cos_theta_o, roughness, a);
-    return color * single + multiple(color, a * (1 + kFon2 * roughness)) * std::max(1 - single, 0.0F);
+    return color * single + multiple(color, a * (1 + kFon2 * roughness)) * (1 - single);
 }
 
 LobeEval DiffuseReflect::eval(Vec3f wo, Vec3f wi) const noexcept {

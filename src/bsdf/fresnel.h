@@ -43,7 +43,7 @@ struct FresnelDielectric {
     const float perpendicular = (t1 - t2) / (t1 + t2);
     const float t3 = cos2 * a2_b2 + sin2 * sin2, t4 = t2 * sin2;
     const float parallel = perpendicular * (t3 - t4) / (t3 + t4);
-    return 0.5F * (perpendicular + parallel);
+    return std::max(0.5F * (perpendicular + parallel), 0.0F);  // matched indices round to below 0
 }
 
 [[nodiscard]] inline Color fresnel_conductor(float cos_theta, Color n, Color k) noexcept {

@@ -1,5 +1,7 @@
 #include "bsdf/schlick.h"
 
+#include "bsdf/ggx_compensation.h"
+
 namespace lightsieve {
 namespace {
 
@@ -13,10 +15,7 @@ struct Facet {
     Color operator()(float cos_theta) const noexcept { return curve.value(cos_theta) * compensation; }
 };
 
-Facet facet(const SchlickReflect& s, float cos_theta_o) {
-    if (s.alpha.smooth()) return {s.curve, kWhite};
-    return {s.curve, kWhite + s.curve.f0 * (1 / ggx_albedo(cos_theta_o, s.alpha.mean()) - 1)};
-}
+Facet facet(const SchlickReflect& s, Vec3f wo) { return {s.curve, kWhite + s.curve.f0 * ggx_lost(wo, s.alpha)}; }
 
 }  // namespace
 
@@ -27,16 +26,15 @@ SchlickReflect::SchlickReflect(GgxAlpha roughness, Color facing, Color grazing, 
 
 LobeEval SchlickReflect::eval(Vec3f wo, Vec3f wi) const noexcept {
     if (!(wi.z > 0) || alpha.smooth()) return {};
-    return ggx_eval_reflection(wo, wi, alpha, facet(*this, wo.z));
+    return ggx_eval_reflection(wo, wi, alpha, facet(*this, wo));
 }
 
 LobeSample SchlickReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {
-    return ggx_sample_reflection_lobe(wo, u, alpha, facet(*this, wo.z));
+    return ggx_sample_reflection_lobe(wo, u, alpha, facet(*this, wo));
 }
 
 Color SchlickReflect::albedo(Vec3f wo) const noexcept {
-    const GgxMoments moments = ggx_moments(wo.z, alpha.mean());
-    return curve.mean(moments) * (Color::grey(moments.white) + curve.f0 * (1 - moments.white));
+    return ggx_compensated_albedo(wo, alpha, curve.f0, [&](float cos_theta) { return curve.value(cos_theta); });
 }
 
 }  // namespace lightsieve

@@ -1,16 +1,16 @@
 #include "bsdf/thin_transmit.h"
 
-#include "bsdf/albedo_table.h"
+#include "bsdf/ggx_compensation.h"
 
 namespace lightsieve {
 
 LobeEval ThinTransmit::eval(Vec3f wo, Vec3f wi) const noexcept {
     if (!(wi.z < 0) || alpha.smooth()) return {};
-    return ggx_eval_reflection(wo, {wi.x, wi.y, -wi.z}, alpha, [&](float) { return Color::grey(1 / ggx_albedo(wo.z, alpha.mean())); });
+    return ggx_eval_reflection(wo, {wi.x, wi.y, -wi.z}, alpha, [&](float) { return Color::grey(1 + ggx_lost(wo, alpha)); });
 }
 
 LobeSample ThinTransmit::sample(Vec3f wo, Vec2f u, float) const noexcept {
-    LobeSample s = ggx_sample_reflection_lobe(wo, u, alpha, [&](float) { return Color::grey(1 / ggx_albedo(wo.z, alpha.mean())); });
+    LobeSample s = ggx_sample_reflection_lobe(wo, u, alpha, [&](float) { return Color::grey(1 + ggx_lost(wo, alpha)); });
     s.wi.z = -s.wi.z;
     return s;
 }
