@@ -11,14 +11,16 @@ using Vec3d = std::array<double, 3>;
 
 Vec3d operator*(const ColorMatrix& m, const Vec3d& v) {
     Vec3d out{};
-    for (std::size_t i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
+    for (std::size_t i = 0; i < 3; ++i)
+        out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
     return out;
 }
 
 ColorMatrix operator*(const ColorMatrix& a, const ColorMatrix& b) {
     ColorMatrix out{};
     for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) out[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+        for (std::size_t j = 0; j < 3; ++j)
+            out[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
     }
     return out;
 }
@@ -29,10 +31,12 @@ ColorMatrix inverse(const ColorMatrix& m) {
         const std::size_t r0 = (i + 1) % 3, r1 = (i + 2) % 3, c0 = (j + 1) % 3, c1 = (j + 2) % 3;
         return m[r0][c0] * m[r1][c1] - m[r0][c1] * m[r1][c0];
     };
-    const double determinant = m[0][0] * cofactor(0, 0) + m[0][1] * cofactor(0, 1) + m[0][2] * cofactor(0, 2);
+    const double determinant =
+        m[0][0] * cofactor(0, 0) + m[0][1] * cofactor(0, 1) + m[0][2] * cofactor(0, 2);
     ColorMatrix out{};
     for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) out[j][i] = cofactor(i, j) / determinant;
+        for (std::size_t j = 0; j < 3; ++j)
+            out[j][i] = cofactor(i, j) / determinant;
     }
     return out;
 }
@@ -42,7 +46,8 @@ Vec3d xyz_from_xy(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
 
 /// Source: SMPTE RP 177-1993, section 3.3.
 ColorMatrix xyz_from_rgb(const Chromaticities& c) {
-    const Vec3d r = xyz_from_xy(c.red_x, c.red_y), g = xyz_from_xy(c.green_x, c.green_y), b = xyz_from_xy(c.blue_x, c.blue_y);
+    const Vec3d r = xyz_from_xy(c.red_x, c.red_y), g = xyz_from_xy(c.green_x, c.green_y),
+                b = xyz_from_xy(c.blue_x, c.blue_y);
     const ColorMatrix columns{{{r[0], g[0], b[0]}, {r[1], g[1], b[1]}, {r[2], g[2], b[2]}}};
     const Vec3d scale = inverse(columns) * xyz_from_xy(c.white_x, c.white_y);
     return columns * ColorMatrix{{{scale[0], 0, 0}, {0, scale[1], 0}, {0, 0, scale[2]}}};
@@ -50,10 +55,13 @@ ColorMatrix xyz_from_rgb(const Chromaticities& c) {
 
 /// Bradford chromatic adaptation. Source: Lam 1985; Lindbloom, "Chromatic Adaptation".
 ColorMatrix adaptation(const Chromaticities& from, const Chromaticities& to) {
-    constexpr ColorMatrix kBradford{{{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
+    constexpr ColorMatrix kBradford{
+        {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
     const Vec3d source = kBradford * xyz_from_xy(from.white_x, from.white_y);
     const Vec3d target = kBradford * xyz_from_xy(to.white_x, to.white_y);
-    const ColorMatrix gain{{{target[0] / source[0], 0, 0}, {0, target[1] / source[1], 0}, {0, 0, target[2] / source[2]}}};
+    const ColorMatrix gain{{{target[0] / source[0], 0, 0},
+                            {0, target[1] / source[1], 0},
+                            {0, 0, target[2] / source[2]}}};
     return inverse(kBradford) * gain * kBradford;
 }
 
@@ -121,7 +129,9 @@ constexpr NamedSpace kSpaces[] = {
 bool same_name(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) return false;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        if (std::tolower(static_cast<unsigned char>(a[i])) != std::tolower(static_cast<unsigned char>(b[i]))) return false;
+        if (std::tolower(static_cast<unsigned char>(a[i])) !=
+            std::tolower(static_cast<unsigned char>(b[i])))
+            return false;
     }
     return true;
 }
@@ -134,7 +144,8 @@ float srgb_decode(float v) {
 
 float srgb_encode(float v) {
     const float a = std::abs(v);
-    return std::copysign(a <= 0.0031308F ? a * 12.92F : 1.055F * std::pow(a, 1 / 2.4F) - 0.055F, v);
+    return std::copysign(a <= 0.0031308F ? a * 12.92F : 1.055F * std::pow(a, 1 / 2.4F) - 0.055F,
+                         v);
 }
 
 }  // namespace
@@ -186,19 +197,26 @@ std::optional<ColorSpace> find_color_space(std::string_view name) {
 
 std::vector<std::string> color_space_names() {
     std::vector<std::string> names;
-    for (const NamedSpace& entry : kSpaces) names.emplace_back(entry.name);
+    for (const NamedSpace& entry : kSpaces)
+        names.emplace_back(entry.name);
     return names;
 }
 
-ColorSpace resolve_color_space(std::string_view name, ColorSpace automatic, Diagnostics& diagnostics, const SourceSpan& where) {
+ColorSpace resolve_color_space(std::string_view name, ColorSpace automatic,
+                               Diagnostics& diagnostics, const SourceSpan& where) {
     if (same_name(name, "auto")) return automatic;
     if (const std::optional<ColorSpace> space = find_color_space(name)) return *space;
     std::vector<std::string> candidates = color_space_names();
     candidates.emplace_back("auto");
     std::string hint = did_you_mean(name, candidates);
-    if (hint.empty()) hint = "known names are \"auto\", \"\" (no conversion), \"ACEScg\", \"sRGB\", \"lin_rec709\" and the usual names of the ACES configurations";
+    if (hint.empty())
+        hint =
+            "known names are \"auto\", \"\" (no conversion), \"ACEScg\", \"sRGB\", \"lin_rec709\" "
+            "and the usual names of the ACES configurations";
     diagnostics.warning(Code::UnknownColorSpace,
-                        "unknown colour space \"" + std::string(name) + "\"; taken for \"" + std::string(color_space_text(automatic)) + "\"", where, std::move(hint));
+                        "unknown colour space \"" + std::string(name) + "\"; taken for \"" +
+                            std::string(color_space_text(automatic)) + "\"",
+                        where, std::move(hint));
     return automatic;
 }
 
@@ -210,10 +228,14 @@ std::string_view color_space_text(ColorSpace space) {
 }
 
 ColorConversion::ColorConversion(ColorSpace from, ColorSpace to)
-    : identity_(from.raw || to.raw || from == to), same_primaries_(from.primaries == to.primaries), decode_(from.transfer), encode_(to.transfer) {
+    : identity_(from.raw || to.raw || from == to),
+      same_primaries_(from.primaries == to.primaries),
+      decode_(from.transfer),
+      encode_(to.transfer) {
     const ColorMatrix m = rgb_to_rgb(from.primaries, to.primaries);
     for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) matrix_[i][j] = static_cast<float>(m[i][j]);
+        for (std::size_t j = 0; j < 3; ++j)
+            matrix_[i][j] = static_cast<float>(m[i][j]);
     }
 }
 
@@ -230,6 +252,8 @@ Color ColorConversion::operator()(Color c) const {
     return {encode(encode_, light.r), encode(encode_, light.g), encode(encode_, light.b)};
 }
 
-float ColorConversion::grey(float v) const { return identity_ ? v : encode(encode_, decode(decode_, v)); }
+float ColorConversion::grey(float v) const {
+    return identity_ ? v : encode(encode_, decode(decode_, v));
+}
 
 }  // namespace lightsieve

@@ -20,12 +20,12 @@ namespace lightsieve {
 
 /// Red, green, blue and white of a colour space.
 enum class Primaries : std::uint8_t {
-    Ap1,        ///< ACEScg, white about D60
-    Ap0,        ///< ACES2065-1
-    Rec709,     ///< also sRGB, D65
-    Rec2020,    ///< D65
-    P3D65,      ///< D65
-    AdobeRgb,   ///< D65
+    Ap1,       ///< ACEScg, white about D60
+    Ap0,       ///< ACES2065-1
+    Rec709,    ///< also sRGB, D65
+    Rec2020,   ///< D65
+    P3D65,     ///< D65
+    AdobeRgb,  ///< D65
 };
 
 /// How stored values relate to light.
@@ -65,7 +65,8 @@ using ColorMatrix = std::array<std::array<double, 3>, 3>;
 /// Every name that `find_color_space` knows, for messages.
 [[nodiscard]] std::vector<std::string> color_space_names();
 /// The space of that name. "auto" gives `automatic`; so does an unknown name, with a warning that says so.
-[[nodiscard]] ColorSpace resolve_color_space(std::string_view name, ColorSpace automatic, Diagnostics& diagnostics, const SourceSpan& where);
+[[nodiscard]] ColorSpace resolve_color_space(std::string_view name, ColorSpace automatic,
+                                             Diagnostics& diagnostics, const SourceSpan& where);
 /// A name for messages and headers, e.g. "ACEScg", "sRGB - Texture"; "raw" for raw.
 [[nodiscard]] std::string_view color_space_text(ColorSpace space);
 

@@ -11,12 +11,11 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
 #include <ImfStringAttribute.h>
-#include <ImfStringVectorAttribute.h>
-#include <ImfTestFile.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <new>
+#include <set>
 
 #include "core/error.h"
 
@@ -27,10 +26,13 @@ namespace {
 namespace exr = OPENEXR_IMF_NAMESPACE;
 using IMATH_NAMESPACE::Box2i;
 
-[[noreturn]] void fail(Code code, std::string message, std::string hint) { throw InputError(Error{code, std::move(message), {}, std::move(hint), {}, Severity::Error}); }
+[[noreturn]] void fail(Code code, std::string message, std::string hint) {
+    throw InputError(Error{code, std::move(message), {}, std::move(hint), {}, Severity::Error});
+}
 
 [[noreturn]] void damaged(const std::string& path, const std::string& why) {
-    fail(Code::FileFormat, "\"" + path + "\" cannot be read as an OpenEXR picture: " + why, "write the file again, or check how it was copied");
+    fail(Code::FileFormat, "\"" + path + "\" cannot be read as an OpenEXR picture: " + why,
+         "write the file again, or check how it was copied");
 }
 
 /// Runs `body`; what OpenEXR throws becomes an InputError about `path`.
@@ -41,7 +43,8 @@ auto guarded(const std::string& path, const Body& body) {
     } catch (const InputError&) {
         throw;
     } catch (const std::bad_alloc&) {
-        fail(Code::LimitImageSize, "\"" + path + "\" needs more memory than there is", "read it on a larger machine, or write fewer layers");
+        fail(Code::LimitImageSize, "\"" + path + "\" needs more memory than there is",
+             "read it on a larger machine, or write fewer layers");
     } catch (const std::exception& e) {
         damaged(path, e.what());
     }
@@ -49,8 +52,12 @@ auto guarded(const std::string& path, const Body& body) {
 
 void check_exists(const std::string& path) {
     std::error_code ec;
-    if (!std::filesystem::exists(path, ec)) fail(Code::FileNotFound, "there is no file \"" + path + "\"", "check the name and the folder");
-    if (std::filesystem::is_directory(path, ec)) fail(Code::FileUnreadable, "\"" + path + "\" is a folder", "give the name of an OpenEXR file");
+    if (!std::filesystem::exists(path, ec))
+        fail(Code::FileNotFound, "there is no file \"" + path + "\"",
+             "check the name and the folder");
+    if (std::filesystem::is_directory(path, ec))
+        fail(Code::FileUnreadable, "\"" + path + "\" is a folder",
+             "give the name of an OpenEXR file");
 }
 
 ExrPixelType our_type(exr::PixelType type) {
@@ -78,18 +85,30 @@ ExrCompression our_compression(exr::Compression compression) {
 
 /// Channels of later parts carry their part's name unless they already do.
 std::string full_name(const exr::Header& header, int part, const std::string& channel) {
-    if (part == 0 || !header.hasName() || channel.find('.') != std::string::npos || channel == header.name()) return channel;
+    if (part == 0 || !header.hasName() || channel.find('.') != std::string::npos ||
+        channel == header.name())
+        return channel;
     return header.name() + "." + channel;
 }
 
 void read_attributes(const exr::Header& header, std::map<std::string, ExrAttribute>& out) {
+    // What describes the file itself has members of its own.
+    static const std::set<std::string> kStructural = {
+        "chunkCount", "name", "pixelAspectRatio", "screenWindowWidth", "type", "version"};
     for (auto it = header.begin(); it != header.end(); ++it) {
+        if (kStructural.contains(it.name())) continue;
         const exr::Attribute& a = it.attribute();
-        if (const auto* i = dynamic_cast<const exr::IntAttribute*>(&a)) out.emplace(it.name(), i->value());
-        if (const auto* f = dynamic_cast<const exr::FloatAttribute*>(&a)) out.emplace(it.name(), f->value());
-        if (const auto* s = dynamic_cast<const exr::StringAttribute*>(&a)) out.emplace(it.name(), s->value());
-        if (const auto* v = dynamic_cast<const exr::FloatVectorAttribute*>(&a)) out.emplace(it.name(), v->value());
-        if (const auto* m = dynamic_cast<const exr::M44fAttribute*>(&a)) out.emplace(it.name(), std::vector<float>(m->value().getValue(), m->value().getValue() + 16));
+        if (const auto* i = dynamic_cast<const exr::IntAttribute*>(&a))
+            out.emplace(it.name(), i->value());
+        if (const auto* f = dynamic_cast<const exr::FloatAttribute*>(&a))
+            out.emplace(it.name(), f->value());
+        if (const auto* s = dynamic_cast<const exr::StringAttribute*>(&a))
+            out.emplace(it.name(), s->value());
+        if (const auto* v = dynamic_cast<const exr::FloatVectorAttribute*>(&a))
+            out.emplace(it.name(), v->value());
+        if (const auto* m = dynamic_cast<const exr::M44fAttribute*>(&a))
+            out.emplace(it.name(),
+                        std::vector<float>(m->value().getValue(), m->value().getValue() + 16));
     }
 }
 
@@ -99,9 +118,12 @@ std::int64_t extent(int first, int last) { return std::int64_t{last} - first + 1
 void read_windows(const std::string& path, const exr::Header& header, ExrFile& out) {
     const Box2i& display = header.displayWindow();
     const Box2i& data = header.dataWindow();
-    const std::int64_t sizes[] = {extent(display.min.x, display.max.x), extent(display.min.y, display.max.y), extent(data.min.x, data.max.x), extent(data.min.y, data.max.y)};
+    const std::int64_t sizes[] = {extent(display.min.x, display.max.x),
+                                  extent(display.min.y, display.max.y),
+                                  extent(data.min.x, data.max.x), extent(data.min.y, data.max.y)};
     for (const std::int64_t size : sizes) {
-        if (size < 1 || size > (std::int64_t{1} << 30)) damaged(path, "its windows are " + std::to_string(size) + " pixels wide or high");
+        if (size < 1 || size > (std::int64_t{1} << 30))
+            damaged(path, "its windows are " + std::to_string(size) + " pixels wide or high");
     }
     out.width = static_cast<int>(sizes[0]);
     out.height = static_cast<int>(sizes[1]);
@@ -117,8 +139,10 @@ ExrFile read_headers(const std::string& path, const exr::MultiPartInputFile& fil
     out.n_parts = file.parts();
     for (int p = 0; p < file.parts(); ++p) {
         const exr::Header& header = file.header(p);
-        if (header.hasType() && (header.type() == exr::DEEPSCANLINE || header.type() == exr::DEEPTILE)) {
-            fail(Code::FileFormat, "\"" + path + "\" holds deep pixels, which are not supported", "flatten it first");
+        if (header.hasType() &&
+            (header.type() == exr::DEEPSCANLINE || header.type() == exr::DEEPTILE)) {
+            fail(Code::FileFormat, "\"" + path + "\" holds deep pixels, which are not supported",
+                 "flatten it first");
         }
         if (p == 0) {
             read_windows(path, header, out);
@@ -127,13 +151,20 @@ ExrFile read_headers(const std::string& path, const exr::MultiPartInputFile& fil
             out.compression = our_compression(header.compression());
             read_attributes(header, out.attributes);
         } else if (header.dataWindow() != file.header(0).dataWindow()) {
-            fail(Code::FileFormat, "the parts of \"" + path + "\" have different data windows, which is not supported", "write all parts with one data window");
+            fail(Code::FileFormat,
+                 "the parts of \"" + path +
+                     "\" have different data windows, which is not supported",
+                 "write all parts with one data window");
         }
         for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
             if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
-                fail(Code::FileFormat, "channel \"" + std::string(it.name()) + "\" of \"" + path + "\" is subsampled, which is not supported", "convert the file to RGB");
+                fail(Code::FileFormat,
+                     "channel \"" + std::string(it.name()) + "\" of \"" + path +
+                         "\" is subsampled, which is not supported",
+                     "convert the file to RGB");
             }
-            out.channels.push_back({full_name(header, p, it.name()), our_type(it.channel().type), {}});
+            out.channels.push_back(
+                {full_name(header, p, it.name()), our_type(it.channel().type), {}});
         }
     }
     return out;
@@ -146,10 +177,13 @@ void read_pixels(exr::MultiPartInputFile& file, const std::string& path, ExrFile
         if (!part.isComplete()) damaged(path, "it ends before its last pixel");
         const Box2i data = part.header().dataWindow();
         exr::FrameBuffer buffer;
-        for (auto it = part.header().channels().begin(); it != part.header().channels().end(); ++it) {
+        for (auto it = part.header().channels().begin(); it != part.header().channels().end();
+             ++it) {
             ExrReadChannel& channel = out.channels[next++];
-            channel.pixels.resize(static_cast<std::size_t>(out.data_width) * static_cast<std::size_t>(out.data_height));
-            const exr::PixelType type = channel.type == ExrPixelType::UInt ? exr::UINT : exr::FLOAT;
+            channel.pixels.resize(static_cast<std::size_t>(out.data_width) *
+                                  static_cast<std::size_t>(out.data_height));
+            const exr::PixelType type =
+                channel.type == ExrPixelType::UInt ? exr::UINT : exr::FLOAT;
             buffer.insert(it.name(), exr::Slice::Make(type, channel.pixels.data(), data));
         }
         part.setFrameBuffer(buffer);
@@ -160,7 +194,8 @@ void read_pixels(exr::MultiPartInputFile& file, const std::string& path, ExrFile
 }  // namespace
 
 const ExrReadChannel* ExrFile::find(const std::string& name) const {
-    const auto it = std::find_if(channels.begin(), channels.end(), [&](const ExrReadChannel& c) { return c.name == name; });
+    const auto it = std::find_if(channels.begin(), channels.end(),
+                                 [&](const ExrReadChannel& c) { return c.name == name; });
     return it == channels.end() ? nullptr : &*it;
 }
 
@@ -177,12 +212,14 @@ ExrFile read_exr(const std::string& path, std::size_t max_bytes) {
     return guarded(path, [&] {
         exr::MultiPartInputFile file(path.c_str(), 0);
         ExrFile out = read_headers(path, file);
-        const std::size_t n_pixels = static_cast<std::size_t>(out.data_width) * static_cast<std::size_t>(out.data_height);
+        const std::size_t n_pixels =
+            static_cast<std::size_t>(out.data_width) * static_cast<std::size_t>(out.data_height);
         const std::size_t n_channels = std::max<std::size_t>(1, out.channels.size());
         if (n_pixels > max_bytes / sizeof(float) / n_channels) {
             fail(Code::LimitImageSize,
-                 "\"" + path + "\" has " + std::to_string(out.data_width) + "x" + std::to_string(out.data_height) + " pixels of " + std::to_string(n_channels) + " channels, more than " +
-                     std::to_string(max_bytes >> 20) + " MiB",
+                 "\"" + path + "\" has " + std::to_string(out.data_width) + "x" +
+                     std::to_string(out.data_height) + " pixels of " + std::to_string(n_channels) +
+                     " channels, more than " + std::to_string(max_bytes >> 20) + " MiB",
                  "write fewer layers into one file, or a smaller region");
         }
         read_pixels(file, path, out);

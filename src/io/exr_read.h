@@ -15,20 +15,24 @@ namespace lightsieve {
 
 /// One channel with its pixels.
 struct ExrReadChannel {
-    std::string name;            ///< full name; "part.channel" where a part's channels do not begin with its name
+    std::string
+        name;  ///< full name; "part.channel" where a part's channels do not begin with its name
     ExrPixelType type = ExrPixelType::Float;
-    std::vector<float> pixels;   ///< data_height * data_width, row 0 at the top; UInt as the bits of a float; empty after read_exr_header
+    std::vector<float>
+        pixels;  ///< data_height * data_width, row 0 at the top; UInt as the bits of a float; empty after read_exr_header
 };
 
 struct ExrFile {
     int width = 0, height = 0;  ///< display window [pixels]
-    int data_x = 0, data_y = 0, data_width = 0, data_height = 0;  ///< data window, relative to the display window
+    int data_x = 0, data_y = 0, data_width = 0,
+        data_height = 0;  ///< data window, relative to the display window
     float pixel_aspect_ratio = 1;
     bool tiled = false;
     int n_parts = 1;
     ExrCompression compression = ExrCompression::None;
-    std::vector<ExrReadChannel> channels;            ///< of all parts
-    std::map<std::string, ExrAttribute> attributes;  ///< ints, floats, strings, float arrays and matrices of the first part
+    std::vector<ExrReadChannel> channels;  ///< of all parts
+    std::map<std::string, ExrAttribute>
+        attributes;  ///< ints, floats, strings, float arrays and matrices of the first part
     /// The channel of that full name, or null.
     [[nodiscard]] const ExrReadChannel* find(const std::string& name) const;
 };

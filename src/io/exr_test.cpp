@@ -20,7 +20,10 @@ namespace {
 class ExrTest : public FolderTest {};
 
 /// A value that tells where it belongs.
-float value_at(int x, int y, int channel) { return static_cast<float>(x) + 100 * static_cast<float>(y) + 0.25F * static_cast<float>(channel); }
+float value_at(int x, int y, int channel) {
+    return static_cast<float>(x) + 100 * static_cast<float>(y) +
+           0.25F * static_cast<float>(channel);
+}
 
 constexpr int kWidth = 70, kHeight = 50;
 
@@ -31,19 +34,27 @@ ExrWriteSpec small_spec() {
     spec.data_width = kWidth;
     spec.data_height = kHeight;
     spec.tile_size = 16;
-    spec.parts = {{"RGBA", {{"R", ExrPixelType::Float}, {"G", ExrPixelType::Float}, {"B", ExrPixelType::Float}, {"A", ExrPixelType::Float}}}, {"Z", {{"Z", ExrPixelType::Float}}}};
+    spec.parts = {{"RGBA",
+                   {{"R", ExrPixelType::Float},
+                    {"G", ExrPixelType::Float},
+                    {"B", ExrPixelType::Float},
+                    {"A", ExrPixelType::Float}}},
+                  {"Z", {{"Z", ExrPixelType::Float}}}};
     return spec;
 }
 
 ExrWriteSpec one_part(ExrWriteSpec spec) {
-    for (std::size_t p = 1; p < spec.parts.size(); ++p) spec.parts[0].channels.insert(spec.parts[0].channels.end(), spec.parts[p].channels.begin(), spec.parts[p].channels.end());
+    for (std::size_t p = 1; p < spec.parts.size(); ++p)
+        spec.parts[0].channels.insert(spec.parts[0].channels.end(), spec.parts[p].channels.begin(),
+                                      spec.parts[p].channels.end());
     spec.parts.resize(1);
     return spec;
 }
 
 std::size_t n_channels(const ExrWriteSpec& spec) {
     std::size_t n = 0;
-    for (const ExrPart& part : spec.parts) n += part.channels.size();
+    for (const ExrPart& part : spec.parts)
+        n += part.channels.size();
     return n;
 }
 
@@ -52,12 +63,14 @@ void write_rectangle(ExrWriter& writer, std::size_t n, int x0, int y0, int x1, i
     std::vector<float> pixels;
     for (int y = y0; y < y1; ++y) {
         for (int x = x0; x < x1; ++x) {
-            for (std::size_t c = 0; c < n; ++c) pixels.push_back(value_at(x, y, static_cast<int>(c)));
+            for (std::size_t c = 0; c < n; ++c)
+                pixels.push_back(value_at(x, y, static_cast<int>(c)));
         }
     }
     std::vector<ExrPlane> planes;
     const auto stride = static_cast<std::ptrdiff_t>(n);
-    for (std::size_t c = 0; c < n; ++c) planes.push_back({pixels.data() + c, stride, stride * (x1 - x0)});
+    for (std::size_t c = 0; c < n; ++c)
+        planes.push_back({pixels.data() + c, stride, stride * (x1 - x0)});
     writer.write(x0, y0, x1 - x0, y1 - y0, planes);
 }
 
@@ -65,7 +78,9 @@ void write_rectangle(ExrWriter& writer, std::size_t n, int x0, int y0, int x1, i
 void write_buckets(ExrWriter& writer, const ExrWriteSpec& spec, int size) {
     for (int y = (spec.data_height - 1) / size * size; y >= 0; y -= size) {
         for (int x = 0; x < spec.data_width; x += size) {
-            write_rectangle(writer, n_channels(spec), spec.data_x + x, spec.data_y + y, spec.data_x + std::min(x + size, spec.data_width), spec.data_y + std::min(y + size, spec.data_height));
+            write_rectangle(writer, n_channels(spec), spec.data_x + x, spec.data_y + y,
+                            spec.data_x + std::min(x + size, spec.data_width),
+                            spec.data_y + std::min(y + size, spec.data_height));
         }
     }
 }
@@ -80,7 +95,9 @@ void expect_values(const ExrFile& file, const ExrWriteSpec& spec, float relative
             for (int y = 0; y < spec.data_height; ++y) {
                 for (int x = 0; x < spec.data_width; ++x) {
                     const float expected = value_at(spec.data_x + x, spec.data_y + y, c);
-                    ASSERT_NEAR(read->pixels[static_cast<std::size_t>(y * spec.data_width + x)], expected, std::abs(expected) * relative) << channel.name << ' ' << x << ' ' << y;
+                    ASSERT_NEAR(read->pixels[static_cast<std::size_t>(y * spec.data_width + x)],
+                                expected, std::abs(expected) * relative)
+                        << channel.name << ' ' << x << ' ' << y;
                 }
             }
             ++c;
@@ -108,7 +125,9 @@ TEST_F(ExrTest, RoundTripTiledAndScanlineOneAndManyParts) {
 }
 
 TEST_F(ExrTest, LosslessCompressionsKeepEveryBit) {
-    for (const ExrCompression compression : {ExrCompression::None, ExrCompression::Rle, ExrCompression::Zip, ExrCompression::Zips, ExrCompression::Piz}) {
+    for (const ExrCompression compression :
+         {ExrCompression::None, ExrCompression::Rle, ExrCompression::Zip, ExrCompression::Zips,
+          ExrCompression::Piz}) {
         ExrWriteSpec spec = one_part(small_spec());
         spec.compression = compression;
         ExrWriter writer(in_folder("a.exr"), spec);
@@ -121,9 +140,12 @@ TEST_F(ExrTest, LosslessCompressionsKeepEveryBit) {
 }
 
 TEST_F(ExrTest, LossyCompressionsComeClose) {
-    for (const ExrCompression compression : {ExrCompression::Pxr24, ExrCompression::B44, ExrCompression::B44a, ExrCompression::Dwaa, ExrCompression::Dwab}) {
+    for (const ExrCompression compression :
+         {ExrCompression::Pxr24, ExrCompression::B44, ExrCompression::B44a, ExrCompression::Dwaa,
+          ExrCompression::Dwab}) {
         ExrWriteSpec spec = one_part(small_spec());
-        for (ExrChannel& channel : spec.parts[0].channels) channel.type = ExrPixelType::Half;
+        for (ExrChannel& channel : spec.parts[0].channels)
+            channel.type = ExrPixelType::Half;
         spec.compression = compression;
         ExrWriter writer(in_folder("a.exr"), spec);
         write_buckets(writer, spec, 16);
@@ -138,13 +160,17 @@ TEST_F(ExrTest, TypesMayBeMixedAndUIntsKeepTheirBits) {
     ExrWriteSpec spec;
     spec.width = spec.data_width = 3;
     spec.height = spec.data_height = 1;
-    spec.parts = {{"", {{"ID", ExrPixelType::UInt}, {"H", ExrPixelType::Half}, {"F", ExrPixelType::Float}}}};
-    const std::vector<float> ids = {std::bit_cast<float>(4213994615U), std::bit_cast<float>(7U), 0};
+    spec.parts = {
+        {"", {{"ID", ExrPixelType::UInt}, {"H", ExrPixelType::Half}, {"F", ExrPixelType::Float}}}};
+    const std::vector<float> ids = {std::bit_cast<float>(4213994615U), std::bit_cast<float>(7U),
+                                    0};
     const float inf = std::numeric_limits<float>::infinity();
     const std::vector<float> halfs = {0.1F, 1e9F, inf};
     const std::vector<float> floats = {0.1F, 1e9F, std::nanf("")};
     ExrWriter writer(in_folder("a.exr"), spec);
-    writer.write(0, 0, 3, 1, std::vector<ExrPlane>{{ids.data(), 1, 3}, {halfs.data(), 1, 3}, {floats.data(), 1, 3}});
+    writer.write(
+        0, 0, 3, 1,
+        std::vector<ExrPlane>{{ids.data(), 1, 3}, {halfs.data(), 1, 3}, {floats.data(), 1, 3}});
     writer.close();
     const ExrFile file = read_exr(in_folder("a.exr"));
     EXPECT_EQ(std::bit_cast<std::uint32_t>(file.find("ID")->pixels[0]), 4213994615U);
@@ -164,18 +190,24 @@ TEST_F(ExrTest, WindowsAspectAndAttributesComeBack) {
     spec.data_y = 20;
     spec.pixel_aspect_ratio = 1.5F;
     const std::vector<float> matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1};
-    spec.attributes = {{"arnold/aovs/diffuse_key/lpe_expression", std::string("C<RD>.*<L.'key'>")}, {"lightsieve/samples", 16}, {"lightsieve/time", 1.5F}, {"worldToCamera", matrix}, {"lightsieve/list", std::vector<float>{1, 2, 3}}};
+    spec.attributes = {{"arnold/aovs/diffuse_key/lpe_expression", std::string("C<RD>.*<L.'key'>")},
+                       {"lightsieve/samples", 16},
+                       {"lightsieve/time", 1.5F},
+                       {"worldToCamera", matrix},
+                       {"lightsieve/list", std::vector<float>{1, 2, 3}}};
     ExrWriter writer(in_folder("a.exr"), spec);
     write_buckets(writer, spec, 16);
     writer.close();
-    for (const ExrFile& file : {read_exr_header(in_folder("a.exr")), read_exr(in_folder("a.exr"))}) {
+    for (const ExrFile& file :
+         {read_exr_header(in_folder("a.exr")), read_exr(in_folder("a.exr"))}) {
         EXPECT_EQ(file.width, 200);
         EXPECT_EQ(file.height, 100);
         EXPECT_EQ(file.data_x, -10);
         EXPECT_EQ(file.data_y, 20);
         EXPECT_EQ(file.data_width, kWidth);
         EXPECT_FLOAT_EQ(file.pixel_aspect_ratio, 1.5F);
-        for (const auto& [name, value] : spec.attributes) EXPECT_EQ(file.attributes.at(name), value) << name;
+        for (const auto& [name, value] : spec.attributes)
+            EXPECT_EQ(file.attributes.at(name), value) << name;
     }
     expect_values(read_exr(in_folder("a.exr")), spec);
     EXPECT_TRUE(read_exr_header(in_folder("a.exr")).find("R")->pixels.empty());
@@ -265,9 +297,11 @@ TEST_F(ExrTest, DamagedFilesGiveErrors) {
     writer.close();
     const std::string good = bytes_of(in_folder("a.exr"));
     // Cut anywhere: in the magic number, the header, the index, the last tile.
-    for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{40}, good.size() / 8, good.size() / 2, good.size() - 5}) {
+    for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{40},
+                                   good.size() / 8, good.size() / 2, good.size() - 5}) {
         write_bytes(in_folder("cut.exr"), good.substr(0, size));
-        EXPECT_EQ(code_of([&] { (void)read_exr(in_folder("cut.exr")); }), Code::FileFormat) << size;
+        EXPECT_EQ(code_of([&] { (void)read_exr(in_folder("cut.exr")); }), Code::FileFormat)
+            << size;
     }
     write_bytes(in_folder("text.exr"), "this is no picture");
     EXPECT_EQ(code_of([&] { (void)read_exr_header(in_folder("text.exr")); }), Code::FileFormat);

@@ -18,7 +18,8 @@ constexpr const char* kAovPrefix = "arnold/aovs/";
 
 std::string text_attribute(const ExrFile& file, const std::string& name) {
     const auto it = file.attributes.find(name);
-    const std::string* text = it == file.attributes.end() ? nullptr : std::get_if<std::string>(&it->second);
+    const std::string* text =
+        it == file.attributes.end() ? nullptr : std::get_if<std::string>(&it->second);
     return text == nullptr ? std::string() : *text;
 }
 
@@ -34,17 +35,21 @@ std::set<std::string> described_layers(const ExrFile& file) {
     const std::string prefix = kAovPrefix;
     for (const auto& [name, value] : file.attributes) {
         const std::size_t end = name.rfind('/');
-        if (name.starts_with(prefix) && end >= prefix.size()) names.insert(name.substr(prefix.size(), end - prefix.size()));
+        if (name.starts_with(prefix) && end >= prefix.size())
+            names.insert(name.substr(prefix.size(), end - prefix.size()));
     }
     return names;
 }
 
-bool is_bare_color(const std::string& channel) { return channel == "R" || channel == "G" || channel == "B" || channel == "A"; }
+bool is_bare_color(const std::string& channel) {
+    return channel == "R" || channel == "G" || channel == "B" || channel == "A";
+}
 
 /// What bare R, G, B, A are called: what the header describes and no channel is named after, else "RGBA".
 std::string bare_layer_name(const ExrFile& file) {
     std::set<std::string> names = described_layers(file);
-    for (const ExrReadChannel& c : file.channels) names.erase(c.name.substr(0, c.name.rfind('.')));
+    for (const ExrReadChannel& c : file.channels)
+        names.erase(c.name.substr(0, c.name.rfind('.')));
     if (names.contains("RGBA") || names.empty()) return "RGBA";
     return *names.begin();
 }
@@ -67,9 +72,11 @@ void describe(const ExrFile& file, ExrLayer& layer) {
 
 void sort_channels(ExrLayer& layer) {
     std::vector<std::size_t> order(layer.channels.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = i;
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::pair(suffix_rank(layer.suffixes[a]), layer.suffixes[a]) < std::pair(suffix_rank(layer.suffixes[b]), layer.suffixes[b]);
+        return std::pair(suffix_rank(layer.suffixes[a]), layer.suffixes[a]) <
+               std::pair(suffix_rank(layer.suffixes[b]), layer.suffixes[b]);
     });
     ExrLayer sorted = layer;
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -82,7 +89,8 @@ void sort_channels(ExrLayer& layer) {
 std::vector<std::string> split(const std::string& text, const std::string& separator) {
     std::vector<std::string> parts;
     std::size_t begin = 0;
-    for (std::size_t end = text.find(separator); end != std::string::npos; end = text.find(separator, begin)) {
+    for (std::size_t end = text.find(separator); end != std::string::npos;
+         end = text.find(separator, begin)) {
         parts.push_back(text.substr(begin, end - begin));
         begin = end + separator.size();
     }
@@ -99,12 +107,14 @@ std::vector<std::string> lines(const std::string& text) {
 }
 
 const ExrLayer* find_layer(const std::vector<ExrLayer>& layers, const std::string& name) {
-    const auto it = std::find_if(layers.begin(), layers.end(), [&](const ExrLayer& l) { return l.name == name; });
+    const auto it = std::find_if(layers.begin(), layers.end(),
+                                 [&](const ExrLayer& l) { return l.name == name; });
     if (it != layers.end()) return &*it;
     // The beauty goes by several names.
     if (name == "beauty" || name == "RGBA" || name == "RGB") {
         for (const ExrLayer& layer : layers) {
-            if (layer.name == "RGBA" || layer.name == "RGB" || layer.source == "RGBA" || layer.source == "RGB") {
+            if (layer.name == "RGBA" || layer.name == "RGB" || layer.source == "RGBA" ||
+                layer.source == "RGB") {
                 if (layer.light_group.empty()) return &layer;
             }
         }
@@ -112,7 +122,8 @@ const ExrLayer* find_layer(const std::vector<ExrLayer>& layers, const std::strin
     return nullptr;
 }
 
-const std::vector<float>* channel_of(const ExrFile& file, const ExrLayer& layer, const std::string& suffix) {
+const std::vector<float>* channel_of(const ExrFile& file, const ExrLayer& layer,
+                                     const std::string& suffix) {
     for (std::size_t i = 0; i < layer.channels.size(); ++i) {
         if (layer.suffixes[i] == suffix) return &file.channels[layer.channels[i]].pixels;
     }
@@ -137,7 +148,8 @@ struct Sum {
     std::string problem;  ///< why it cannot be checked
 };
 
-Sum find_sum(const ExrFile& file, const std::vector<ExrLayer>& layers, const std::string& whole, const std::vector<std::string>& parts) {
+Sum find_sum(const ExrFile& file, const std::vector<ExrLayer>& layers, const std::string& whole,
+             const std::vector<std::string>& parts) {
     Sum sum;
     std::vector<std::string> names = {whole};
     names.insert(names.end(), parts.begin(), parts.end());
@@ -145,15 +157,19 @@ Sum find_sum(const ExrFile& file, const std::vector<ExrLayer>& layers, const std
         const ExrLayer* layer = find_layer(layers, name);
         if (layer == nullptr) return {{}, "the file has no layer \"" + name + "\""};
         const ExrLayer* first = sum.layers.empty() ? layer : sum.layers[0];
-        if (layer->filter != first->filter || layer->filter_width != first->filter_width) return {{}, "\"" + name + "\" went through another filter than \"" + first->name + "\""};
-        if (loses_precision(file.compression, layer->type)) return {{}, "the file's compression loses precision"};
+        if (layer->filter != first->filter || layer->filter_width != first->filter_width)
+            return {{},
+                    "\"" + name + "\" went through another filter than \"" + first->name + "\""};
+        if (loses_precision(file.compression, layer->type))
+            return {{}, "the file's compression loses precision"};
         sum.layers.push_back(layer);
     }
     return sum;
 }
 
 /// Checks one channel over all pixels and keeps the worst one. worst: its residual over its tolerance; below 0 at first.
-void check_channel(const ExrFile& file, const Sum& sum, const std::string& suffix, ExrSumCheck& check, double& worst) {
+void check_channel(const ExrFile& file, const Sum& sum, const std::string& suffix,
+                   ExrSumCheck& check, double& worst) {
     std::vector<const std::vector<float>*> planes;
     bool half = false;
     for (const ExrLayer* layer : sum.layers) {
@@ -173,14 +189,18 @@ void check_channel(const ExrFile& file, const Sum& sum, const std::string& suffi
             total += double{(*planes[p])[i]};
             magnitude += std::abs(double{(*planes[p])[i]});
         }
-        const double residual = std::abs(whole - total), tolerance = relative * magnitude + absolute;
+        const double residual = std::abs(whole - total),
+                     tolerance = relative * magnitude + absolute;
         const bool failed = !(residual <= tolerance);  // also if something is not a number
         if (failed) ++check.n_failed;
-        const double severity = std::isfinite(residual) && std::isfinite(tolerance) ? residual / tolerance : INFINITY;
+        const double severity =
+            std::isfinite(residual) && std::isfinite(tolerance) ? residual / tolerance : INFINITY;
         if (severity <= worst) continue;
         worst = severity;
-        check.worst_x = file.data_x + static_cast<int>(i % static_cast<std::size_t>(file.data_width));
-        check.worst_y = file.data_y + static_cast<int>(i / static_cast<std::size_t>(file.data_width));
+        check.worst_x =
+            file.data_x + static_cast<int>(i % static_cast<std::size_t>(file.data_width));
+        check.worst_y =
+            file.data_y + static_cast<int>(i / static_cast<std::size_t>(file.data_width));
         check.worst_channel = suffix.empty() ? sum.layers[0]->name : suffix;
         check.whole = whole;
         check.sum = total;
@@ -189,7 +209,9 @@ void check_channel(const ExrFile& file, const Sum& sum, const std::string& suffi
     }
 }
 
-ExrSumCheck check_sum(const ExrFile& file, const std::vector<ExrLayer>& layers, const std::string& text, const std::string& whole, const std::vector<std::string>& parts) {
+ExrSumCheck check_sum(const ExrFile& file, const std::vector<ExrLayer>& layers,
+                      const std::string& text, const std::string& whole,
+                      const std::vector<std::string>& parts) {
     ExrSumCheck check;
     check.text = text;
     const Sum sum = find_sum(file, layers, whole, parts);
@@ -199,7 +221,8 @@ ExrSumCheck check_sum(const ExrFile& file, const std::vector<ExrLayer>& layers, 
     }
     // Alpha is no light: it does not add up.
     double worst = -1;
-    for (const char* suffix : {"R", "G", "B", ""}) check_channel(file, sum, suffix, check, worst);
+    for (const char* suffix : {"R", "G", "B", ""})
+        check_channel(file, sum, suffix, check, worst);
     if (!check.checked) check.reason = "the layers have no channel in common";
     check.passed = check.checked && check.n_failed == 0;
     return check;
@@ -208,8 +231,10 @@ ExrSumCheck check_sum(const ExrFile& file, const std::vector<ExrLayer>& layers, 
 /// Index of frame pixel (x, y) in a file's channels, or nothing outside of its data window.
 bool locate(const ExrFile& file, int x, int y, std::size_t& index) {
     const int column = x - file.data_x, row = y - file.data_y;
-    if (column < 0 || row < 0 || column >= file.data_width || row >= file.data_height) return false;
-    index = static_cast<std::size_t>(row) * static_cast<std::size_t>(file.data_width) + static_cast<std::size_t>(column);
+    if (column < 0 || row < 0 || column >= file.data_width || row >= file.data_height)
+        return false;
+    index = static_cast<std::size_t>(row) * static_cast<std::size_t>(file.data_width) +
+            static_cast<std::size_t>(column);
     return true;
 }
 
@@ -219,7 +244,8 @@ struct DiffSums {
     std::size_t n_finite = 0;
 };
 
-void add_difference(const ExrFile& file, double a, double b, std::size_t i, ExrLayerDiff& diff, DiffSums& sums) {
+void add_difference(const ExrFile& file, double a, double b, std::size_t i, ExrLayerDiff& diff,
+                    DiffSums& sums) {
     ++diff.n_values;
     const bool same = a == b || (std::isnan(a) && std::isnan(b));
     if (!same) ++diff.n_different;
@@ -238,25 +264,34 @@ void add_difference(const ExrFile& file, double a, double b, std::size_t i, ExrL
 }
 
 double value_of(const ExrReadChannel& channel, std::size_t i) {
-    return channel.type == ExrPixelType::UInt ? static_cast<double>(std::bit_cast<std::uint32_t>(channel.pixels[i])) : double{channel.pixels[i]};
+    return channel.type == ExrPixelType::UInt
+               ? static_cast<double>(std::bit_cast<std::uint32_t>(channel.pixels[i]))
+               : double{channel.pixels[i]};
 }
 
 /// Compares the channels that both layers have; what is outside of a's data window counts as 0.
-ExrLayerDiff diff_layer(const ExrFile& a, const ExrLayer& layer_a, const ExrFile& b, const ExrLayer& layer_b, std::map<std::string, std::vector<float>>& pictures) {
+ExrLayerDiff diff_layer(const ExrFile& a, const ExrLayer& layer_a, const ExrFile& b,
+                        const ExrLayer& layer_b,
+                        std::map<std::string, std::vector<float>>& pictures) {
     ExrLayerDiff diff;
     diff.name = layer_b.name;
     DiffSums sums;
     for (std::size_t c = 0; c < layer_b.channels.size(); ++c) {
-        const auto same = std::find(layer_a.suffixes.begin(), layer_a.suffixes.end(), layer_b.suffixes[c]);
+        const auto same =
+            std::find(layer_a.suffixes.begin(), layer_a.suffixes.end(), layer_b.suffixes[c]);
         if (same == layer_a.suffixes.end()) continue;
-        const ExrReadChannel& channel_a = a.channels[layer_a.channels[static_cast<std::size_t>(same - layer_a.suffixes.begin())]];
+        const ExrReadChannel& channel_a =
+            a.channels[layer_a
+                           .channels[static_cast<std::size_t>(same - layer_a.suffixes.begin())]];
         const ExrReadChannel& channel_b = b.channels[layer_b.channels[c]];
         std::vector<float>& picture = pictures[channel_b.name];
         picture.assign(channel_b.pixels.size(), 0);
         for (std::size_t i = 0; i < channel_b.pixels.size(); ++i) {
             std::size_t at = 0;
-            const int x = b.data_x + static_cast<int>(i % static_cast<std::size_t>(b.data_width)), y = b.data_y + static_cast<int>(i / static_cast<std::size_t>(b.data_width));
-            const double value_a = locate(a, x, y, at) ? value_of(channel_a, at) : 0, value_b = value_of(channel_b, i);
+            const int x = b.data_x + static_cast<int>(i % static_cast<std::size_t>(b.data_width)),
+                      y = b.data_y + static_cast<int>(i / static_cast<std::size_t>(b.data_width));
+            const double value_a = locate(a, x, y, at) ? value_of(channel_a, at) : 0,
+                         value_b = value_of(channel_b, i);
             add_difference(b, value_a, value_b, i, diff, sums);
             picture[i] = static_cast<float>(std::abs(value_a - value_b));
         }
@@ -268,7 +303,8 @@ ExrLayerDiff diff_layer(const ExrFile& a, const ExrLayer& layer_a, const ExrFile
 }
 
 /// |a - b| of every channel as an EXR file.
-void write_exr_picture(const std::string& path, const ExrFile& b, const std::map<std::string, std::vector<float>>& pictures) {
+void write_exr_picture(const std::string& path, const ExrFile& b,
+                       const std::map<std::string, std::vector<float>>& pictures) {
     ExrWriteSpec spec;
     spec.width = b.width;
     spec.height = b.height;
@@ -289,13 +325,15 @@ void write_exr_picture(const std::string& path, const ExrFile& b, const std::map
 }
 
 /// |a - b| of one layer as a picture, shown as light (sRGB).
-void write_display_picture(const std::string& path, const ExrFile& b, const ExrLayer& layer, const std::map<std::string, std::vector<float>>& pictures) {
+void write_display_picture(const std::string& path, const ExrFile& b, const ExrLayer& layer,
+                           const std::map<std::string, std::vector<float>>& pictures) {
     std::vector<const std::vector<float>*> planes;
     for (std::size_t c = 0; c < layer.channels.size() && planes.size() < 3; ++c) {
         const auto it = pictures.find(b.channels[layer.channels[c]].name);
         if (it != pictures.end() && layer.suffixes[c] != "A") planes.push_back(&it->second);
     }
-    if (planes.size() == 2 || planes.empty()) planes.resize(1, planes.empty() ? &pictures.begin()->second : planes[0]);
+    if (planes.size() == 2 || planes.empty())
+        planes.resize(1, planes.empty() ? &pictures.begin()->second : planes[0]);
     PictureSpec spec;
     spec.width = b.data_width;
     spec.height = b.data_height;
@@ -304,28 +342,51 @@ void write_display_picture(const std::string& path, const ExrFile& b, const ExrL
     std::vector<float> pixels;
     pixels.reserve(planes[0]->size() * planes.size());
     for (std::size_t i = 0; i < planes[0]->size(); ++i) {
-        for (const std::vector<float>* plane : planes) pixels.push_back(encode(Transfer::Srgb, (*plane)[i]));
+        for (const std::vector<float>* plane : planes)
+            pixels.push_back(encode(Transfer::Srgb, (*plane)[i]));
     }
     write_picture(path, spec, pixels);
 }
 
 std::vector<std::string> layer_names(const std::vector<ExrLayer>& layers) {
     std::vector<std::string> names;
-    for (const ExrLayer& layer : layers) names.push_back(layer.name);
+    for (const ExrLayer& layer : layers)
+        names.push_back(layer.name);
     return names;
 }
 
-void write_difference(const std::string& path, const std::string& layer, const ExrFile& b, const std::vector<ExrLayer>& layers, const ExrDiffResult& result,
+void write_difference(const std::string& path, const std::string& layer, const ExrFile& b,
+                      const std::vector<ExrLayer>& layers, const ExrDiffResult& result,
                       const std::map<std::string, std::vector<float>>& pictures) {
-    if (pictures.empty()) throw InputError(Error{Code::UnknownLayer, "the files have no layer in common: there is no difference to write", {}, "compare files of the same layers", {}, Severity::Error});
+    if (pictures.empty())
+        throw InputError(
+            Error{Code::UnknownLayer,
+                  "the files have no layer in common: there is no difference to write",
+                  {},
+                  "compare files of the same layers",
+                  {},
+                  Severity::Error});
     if (path.ends_with(".exr")) return write_exr_picture(path, b, pictures);
     if (!path.ends_with(".png") && !path.ends_with(".tif") && !path.ends_with(".tiff")) {
-        throw InputError(Error{Code::FileUnwritable, "cannot write \"" + path + "\": no format has that ending", {}, "use .exr, .png or .tif", {}, Severity::Error});
+        throw InputError(Error{Code::FileUnwritable,
+                               "cannot write \"" + path + "\": no format has that ending",
+                               {},
+                               "use .exr, .png or .tif",
+                               {},
+                               Severity::Error});
     }
     const std::string& name = layer.empty() ? result.layers.front().name : layer;
     const ExrLayer* shown = find_layer(layers, name);
-    const bool common = shown != nullptr && std::any_of(result.layers.begin(), result.layers.end(), [&](const ExrLayerDiff& d) { return d.name == shown->name; });
-    if (!common) throw InputError(Error{Code::UnknownLayer, "the files have no common layer \"" + name + "\"", {}, did_you_mean(name, layer_names(layers)), {}, Severity::Error});
+    const bool common = shown != nullptr &&
+                        std::any_of(result.layers.begin(), result.layers.end(),
+                                    [&](const ExrLayerDiff& d) { return d.name == shown->name; });
+    if (!common)
+        throw InputError(Error{Code::UnknownLayer,
+                               "the files have no common layer \"" + name + "\"",
+                               {},
+                               did_you_mean(name, layer_names(layers)),
+                               {},
+                               Severity::Error});
     write_display_picture(path, b, *shown, pictures);
 }
 
@@ -338,11 +399,15 @@ std::vector<ExrLayer> exr_layers(const ExrFile& file) {
         const std::string& name = file.channels[i].name;
         const std::size_t dot = name.rfind('.');
         const bool whole = dot == std::string::npos && !is_bare_color(name);
-        const std::string layer_name = dot != std::string::npos ? name.substr(0, dot) : whole ? name : bare;
+        const std::string layer_name = dot != std::string::npos ? name.substr(0, dot)
+                                       : whole                  ? name
+                                                                : bare;
         ExrLayer& layer = by_name[layer_name];
         layer.name = layer_name;
         layer.channels.push_back(i);
-        layer.suffixes.push_back(dot != std::string::npos ? name.substr(dot + 1) : whole ? "" : name);
+        layer.suffixes.push_back(dot != std::string::npos ? name.substr(dot + 1)
+                                 : whole                  ? ""
+                                                          : name);
     }
     std::vector<ExrLayer> layers;
     for (auto& [name, layer] : by_name) {
@@ -388,17 +453,27 @@ ExrVerifyResult exr_verify(const std::string& path) {
     return result;
 }
 
-ExrDiffResult exr_diff(const std::string& path_a, const std::string& path_b, const std::string& picture, const std::string& layer) {
+ExrDiffResult exr_diff(const std::string& path_a, const std::string& path_b,
+                       const std::string& picture, const std::string& layer) {
     const ExrFile a = read_exr(path_a), b = read_exr(path_b);
     if (a.width != b.width || a.height != b.height) {
-        const auto size = [](const ExrFile& f) { return std::to_string(f.width) + "x" + std::to_string(f.height); };
-        throw InputError(Error{Code::PictureSize, "\"" + path_a + "\" has " + size(a) + " pixels, \"" + path_b + "\" " + size(b), {}, "render both at one size", {}, Severity::Error});
+        const auto size = [](const ExrFile& f) {
+            return std::to_string(f.width) + "x" + std::to_string(f.height);
+        };
+        throw InputError(
+            Error{Code::PictureSize,
+                  "\"" + path_a + "\" has " + size(a) + " pixels, \"" + path_b + "\" " + size(b),
+                  {},
+                  "render both at one size",
+                  {},
+                  Severity::Error});
     }
     const std::vector<ExrLayer> layers_a = exr_layers(a), layers_b = exr_layers(b);
     ExrDiffResult result;
     std::map<std::string, std::vector<float>> pictures;
     for (const ExrLayer& layer_b : layers_b) {
-        const auto same = std::find_if(layers_a.begin(), layers_a.end(), [&](const ExrLayer& l) { return l.name == layer_b.name; });
+        const auto same = std::find_if(layers_a.begin(), layers_a.end(),
+                                       [&](const ExrLayer& l) { return l.name == layer_b.name; });
         if (same == layers_a.end()) {
             result.only_b.push_back(layer_b.name);
             continue;
@@ -406,7 +481,8 @@ ExrDiffResult exr_diff(const std::string& path_a, const std::string& path_b, con
         result.layers.push_back(diff_layer(a, *same, b, layer_b, pictures));
     }
     for (const ExrLayer& layer_a : layers_a) {
-        const auto same = std::find_if(layers_b.begin(), layers_b.end(), [&](const ExrLayer& l) { return l.name == layer_a.name; });
+        const auto same = std::find_if(layers_b.begin(), layers_b.end(),
+                                       [&](const ExrLayer& l) { return l.name == layer_a.name; });
         if (same == layers_b.end()) result.only_a.push_back(layer_a.name);
     }
     if (!picture.empty()) write_difference(picture, layer, b, layers_b, result, pictures);

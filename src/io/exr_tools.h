@@ -15,15 +15,15 @@ namespace lightsieve {
 
 /// One layer of a file.
 struct ExrLayer {
-    std::string name;                   ///< "RGBA" for bare R, G, B (or what the header calls them)
+    std::string name;  ///< "RGBA" for bare R, G, B (or what the header calls them)
     std::vector<std::size_t> channels;  ///< indices into ExrFile::channels: R G B A, X Y Z or one
     std::vector<std::string> suffixes;  ///< "R", "G", ...; "" for a channel that is the layer
     ExrPixelType type = ExrPixelType::Float;  ///< of the first channel
-    std::string source;                 ///< the AOV, before renaming; empty if the header does not say
-    std::string filter;                 ///< empty if the header does not say
-    float filter_width = 0;             ///< [pixels]
-    std::string expression;             ///< light path expression; empty if none
-    std::string light_group;            ///< empty if none
+    std::string source;       ///< the AOV, before renaming; empty if the header does not say
+    std::string filter;       ///< empty if the header does not say
+    float filter_width = 0;   ///< [pixels]
+    std::string expression;   ///< light path expression; empty if none
+    std::string light_group;  ///< empty if none
 };
 
 /// The layers of a file, the unnamed one first, then by name.
@@ -42,13 +42,14 @@ struct ExrSumCheck {
     std::string text;      ///< "RGBA = diffuse + specular"
     bool checked = false;  ///< false: could not be checked, see `reason`
     bool passed = false;
-    std::string reason;    ///< why it could not be checked
-    int worst_x = 0, worst_y = 0;  ///< frame pixel with the largest residual in relation to its tolerance
-    std::string worst_channel;     ///< "R", "G", "B"
-    double whole = 0, sum = 0;     ///< there
-    double residual = 0;           ///< |whole - sum| there
-    double tolerance = 0;          ///< allowed there
-    std::size_t n_failed = 0;      ///< pixels above their tolerance
+    std::string reason;  ///< why it could not be checked
+    int worst_x = 0,
+        worst_y = 0;  ///< frame pixel with the largest residual in relation to its tolerance
+    std::string worst_channel;  ///< "R", "G", "B"
+    double whole = 0, sum = 0;  ///< there
+    double residual = 0;        ///< |whole - sum| there
+    double tolerance = 0;       ///< allowed there
+    std::size_t n_failed = 0;   ///< pixels above their tolerance
 };
 struct ExrVerifyResult {
     std::vector<ExrSumCheck> checks;
@@ -64,13 +65,14 @@ inline constexpr double kHalfSumTolerance = 0x1p-10;
 /// How one layer of two files differs.
 struct ExrLayerDiff {
     std::string name;
-    std::size_t n_values = 0;      ///< compared: pixels times channels
-    std::size_t n_different = 0;   ///< not the same bits' value
-    std::size_t n_nonfinite = 0;   ///< NaN or infinite in either file, left out of the figures below
-    double rmse = 0;               ///< root of the mean squared difference
-    double relative_mse = 0;       ///< mean of (a-b)^2 / (b^2 + kRelativeMseEpsilon)
+    std::size_t n_values = 0;     ///< compared: pixels times channels
+    std::size_t n_different = 0;  ///< not the same bits' value
+    std::size_t n_nonfinite =
+        0;                    ///< NaN or infinite in either file, left out of the figures below
+    double rmse = 0;          ///< root of the mean squared difference
+    double relative_mse = 0;  ///< mean of (a-b)^2 / (b^2 + kRelativeMseEpsilon)
     double max_difference = 0;
-    int max_x = 0, max_y = 0;      ///< frame pixel of the largest difference
+    int max_x = 0, max_y = 0;  ///< frame pixel of the largest difference
 };
 struct ExrDiffResult {
     std::vector<ExrLayerDiff> layers;  ///< those that both files have
@@ -82,6 +84,8 @@ inline constexpr double kRelativeMseEpsilon = 1e-2;
 ///
 /// picture  if not empty: |a - b| of every common layer goes to this .exr, of `layer` (or the first) to this .png or .tif
 /// throws   InputError as read_exr; pictures of different sizes (picture-size); unknown layer (unknown-layer)
-[[nodiscard]] ExrDiffResult exr_diff(const std::string& a, const std::string& b, const std::string& picture = {}, const std::string& layer = {});
+[[nodiscard]] ExrDiffResult exr_diff(const std::string& a, const std::string& b,
+                                     const std::string& picture = {},
+                                     const std::string& layer = {});
 
 }  // namespace lightsieve

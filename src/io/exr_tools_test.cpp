@@ -20,7 +20,9 @@ std::vector<float> constant(float v) { return std::vector<float>(kWidth * kHeigh
 
 class ExrToolsTest : public FolderTest {
   protected:
-    void write(const std::string& name, const Planes& planes, const std::map<std::string, ExrAttribute>& attributes = {}, ExrPixelType type = ExrPixelType::Float,
+    void write(const std::string& name, const Planes& planes,
+               const std::map<std::string, ExrAttribute>& attributes = {},
+               ExrPixelType type = ExrPixelType::Float,
                ExrCompression compression = ExrCompression::Zip) const {
         ExrWriteSpec spec;
         spec.width = 20;
@@ -34,7 +36,8 @@ class ExrToolsTest : public FolderTest {
         spec.parts.push_back({"", {}});
         std::vector<ExrPlane> pixels;
         for (const auto& [channel, values] : planes) {
-            spec.parts[0].channels.push_back({channel, channel == "ID" ? ExrPixelType::UInt : type});
+            spec.parts[0].channels.push_back(
+                {channel, channel == "ID" ? ExrPixelType::UInt : type});
             pixels.push_back({values.data(), 1, kWidth});
         }
         ExrWriter writer(in_folder(name), spec);
@@ -63,7 +66,8 @@ Planes additive() {
     return planes;
 }
 
-const std::map<std::string, ExrAttribute> kSum = {{"lightsieve/partitions", std::string("RGBA = a + b + c")}};
+const std::map<std::string, ExrAttribute> kSum = {
+    {"lightsieve/partitions", std::string("RGBA = a + b + c")}};
 
 TEST_F(ExrToolsTest, InfoNamesLayersAndWhatTheHeaderSaysOfThem) {
     Planes planes = additive();
@@ -76,7 +80,8 @@ TEST_F(ExrToolsTest, InfoNamesLayersAndWhatTheHeaderSaysOfThem) {
            {"arnold/aovs/a/light_group", std::string("key")}});
     const ExrInfo info = exr_info(in_folder("a.exr"));
     std::vector<std::string> names;
-    for (const ExrLayer& layer : info.layers) names.push_back(layer.name);
+    for (const ExrLayer& layer : info.layers)
+        names.push_back(layer.name);
     EXPECT_EQ(names, (std::vector<std::string>{"RGBA", "ID", "N", "Z", "a", "b", "c"}));
     EXPECT_EQ(info.layers[0].suffixes, (std::vector<std::string>{"R", "G", "B", "A"}));
     EXPECT_EQ(info.layers[1].type, ExrPixelType::UInt);
@@ -90,7 +95,8 @@ TEST_F(ExrToolsTest, InfoNamesLayersAndWhatTheHeaderSaysOfThem) {
 }
 
 TEST_F(ExrToolsTest, BareChannelsMayBelongToAnotherLayer) {
-    write("a.exr", {{"R", constant(0)}, {"G", constant(0)}, {"B", constant(0)}}, {{"arnold/aovs/diffuse/source", std::string("diffuse")}});
+    write("a.exr", {{"R", constant(0)}, {"G", constant(0)}, {"B", constant(0)}},
+          {{"arnold/aovs/diffuse/source", std::string("diffuse")}});
     EXPECT_EQ(exr_info(in_folder("a.exr")).layers[0].name, "diffuse");
 }
 
@@ -124,19 +130,22 @@ TEST_F(ExrToolsTest, TheWorstPixelIsNamed) {
 
 TEST_F(ExrToolsTest, ToleranceGoesByThePixelType) {
     Planes planes = additive();
-    for (float& v : planes["b.G"]) v += 4e-4F;  // within a half's rounding, far beyond a float's
+    for (float& v : planes["b.G"])
+        v += 4e-4F;  // within a half's rounding, far beyond a float's
     write("float.exr", planes, kSum);
     write("half.exr", planes, kSum, ExrPixelType::Half);
     EXPECT_FALSE(verify_one("float.exr").passed);
     EXPECT_TRUE(verify_one("half.exr").passed);
-    for (float& v : planes["b.G"]) v += 4e-3F;
+    for (float& v : planes["b.G"])
+        v += 4e-3F;
     write("half.exr", planes, kSum, ExrPixelType::Half);
     EXPECT_FALSE(verify_one("half.exr").passed);
 }
 
 TEST_F(ExrToolsTest, LightInAnEmptySumIsFound) {
     Planes planes = additive();
-    for (const char* name : {"a.R", "b.R", "c.R"}) planes[name] = constant(0);
+    for (const char* name : {"a.R", "b.R", "c.R"})
+        planes[name] = constant(0);
     planes["R"] = constant(1e-30F);
     write("a.exr", planes, kSum);
     EXPECT_FALSE(verify_one("a.exr").passed);
@@ -154,15 +163,18 @@ TEST_F(ExrToolsTest, NotANumberFails) {
 }
 
 TEST_F(ExrToolsTest, WhatCannotBeCheckedSaysWhy) {
-    const auto reason = [&](const std::map<std::string, ExrAttribute>& attributes, ExrCompression compression = ExrCompression::Zip) {
+    const auto reason = [&](const std::map<std::string, ExrAttribute>& attributes,
+                            ExrCompression compression = ExrCompression::Zip) {
         write("a.exr", additive(), attributes, ExrPixelType::Float, compression);
         const ExrSumCheck check = verify_one("a.exr");
         EXPECT_FALSE(check.checked);
         EXPECT_FALSE(exr_verify(in_folder("a.exr")).passed());
         return check.reason;
     };
-    EXPECT_EQ(reason({{"lightsieve/partitions", std::string("RGBA = a + x")}}), "the file has no layer \"x\"");
-    EXPECT_EQ(reason({{"lightsieve/partitions", std::string("nonsense")}}), "it is not of the form \"whole = part + part\"");
+    EXPECT_EQ(reason({{"lightsieve/partitions", std::string("RGBA = a + x")}}),
+              "the file has no layer \"x\"");
+    EXPECT_EQ(reason({{"lightsieve/partitions", std::string("nonsense")}}),
+              "it is not of the form \"whole = part + part\"");
     auto filters = kSum;
     filters["arnold/aovs/b/filter"] = std::string("box_filter");
     EXPECT_EQ(reason(filters), "\"b\" went through another filter than \"RGBA\"");
@@ -177,7 +189,8 @@ TEST_F(ExrToolsTest, SeveralSumsAndLayersOfOneChannel) {
     planes["lum"] = constant(3);
     planes["lum_a"] = constant(1);
     planes["lum_b"] = constant(2);
-    write("a.exr", planes, {{"lightsieve/partitions", std::string("beauty = a + b + c\nlum = lum_a + lum_b")}});
+    write("a.exr", planes,
+          {{"lightsieve/partitions", std::string("beauty = a + b + c\nlum = lum_a + lum_b")}});
     const ExrVerifyResult result = exr_verify(in_folder("a.exr"));
     ASSERT_EQ(result.checks.size(), 2U);
     EXPECT_TRUE(result.passed());
@@ -187,8 +200,10 @@ TEST_F(ExrToolsTest, DiffGivesFiguresPerLayer) {
     Planes a = additive(), b = additive();
     a["ID"] = b["ID"] = constant(std::bit_cast<float>(5U));
     a["ID"][0] = std::bit_cast<float>(7U);
-    for (const char* channel : {"a.R", "a.G", "a.B"}) b[channel] = constant(0.5F);
-    for (const char* channel : {"a.R", "a.G", "a.B"}) a[channel] = constant(0.5F);
+    for (const char* channel : {"a.R", "a.G", "a.B"})
+        b[channel] = constant(0.5F);
+    for (const char* channel : {"a.R", "a.G", "a.B"})
+        a[channel] = constant(0.5F);
     a["a.G"][kWidth + 3] = 0.8F;
     a["b.R"][0] = std::nanf("");
     a["extra.R"] = constant(0);
@@ -198,7 +213,8 @@ TEST_F(ExrToolsTest, DiffGivesFiguresPerLayer) {
     EXPECT_EQ(result.only_a, std::vector<std::string>{"extra"});
     EXPECT_TRUE(result.only_b.empty());
     std::map<std::string, ExrLayerDiff> by_name;
-    for (const ExrLayerDiff& diff : result.layers) by_name[diff.name] = diff;
+    for (const ExrLayerDiff& diff : result.layers)
+        by_name[diff.name] = diff;
     const double n = kWidth * kHeight * 4;  // a has alpha
     EXPECT_EQ(by_name["a"].n_different, 1U);
     EXPECT_NEAR(by_name["a"].rmse, std::sqrt(0.09 / n), 1e-6);
@@ -242,9 +258,11 @@ TEST_F(ExrToolsTest, DiffRefusesWhatCannotBeCompared) {
     spec.height = 10;
     spec.parts = {{"", {{"other"}}}};
     ExrWriter(in_folder("other.exr"), spec).close();
-    const auto code_of = [&](const std::string& b, const std::string& picture, const std::string& layer) {
+    const auto code_of = [&](const std::string& b, const std::string& picture,
+                             const std::string& layer) {
         try {
-            (void)exr_diff(in_folder("a.exr"), in_folder(b), picture.empty() ? picture : in_folder(picture), layer);
+            (void)exr_diff(in_folder("a.exr"), in_folder(b),
+                           picture.empty() ? picture : in_folder(picture), layer);
         } catch (const InputError& e) {
             EXPECT_FALSE(e.errors()[0].message.empty());
             return e.errors()[0].code;

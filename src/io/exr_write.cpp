@@ -42,11 +42,31 @@ using IMATH_NAMESPACE::V2i;
 constexpr float kHalfMax = 65504.0F;
 constexpr int kMaxTileSize = 4096;
 /// Header attributes that OpenEXR writes itself.
-const std::set<std::string> kReserved = {"channels",  "compression", "dataWindow", "displayWindow", "lineOrder", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth",
-                                         "tiles",     "name",        "type",       "version",       "chunkCount", "chromaticities",  "view",               "maxSamplesPerPixel"};
+const std::set<std::string> kReserved = {"channels",
+                                         "compression",
+                                         "dataWindow",
+                                         "displayWindow",
+                                         "lineOrder",
+                                         "pixelAspectRatio",
+                                         "screenWindowCenter",
+                                         "screenWindowWidth",
+                                         "tiles",
+                                         "name",
+                                         "type",
+                                         "version",
+                                         "chunkCount",
+                                         "chromaticities",
+                                         "view",
+                                         "maxSamplesPerPixel"};
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& hint) {
-    throw InputError(Error{Code::FileUnwritable, "cannot write \"" + path + "\": " + why, {}, hint, {}, Severity::Error});
+[[noreturn]] void refuse(const std::string& path, const std::string& why,
+                         const std::string& hint) {
+    throw InputError(Error{Code::FileUnwritable,
+                           "cannot write \"" + path + "\": " + why,
+                           {},
+                           hint,
+                           {},
+                           Severity::Error});
 }
 
 /// Runs `body`; what OpenEXR throws becomes an InputError about `path`.
@@ -65,7 +85,8 @@ void guarded(const std::string& path, const Body& body) {
 /// error would be lost.
 class FileStream final : public exr::OStream {
   public:
-    explicit FileStream(const std::string& path) : OStream(path.c_str()), file_(std::fopen(path.c_str(), "wb")) {
+    explicit FileStream(const std::string& path)
+        : OStream(path.c_str()), file_(std::fopen(path.c_str(), "wb")) {
         if (file_ == nullptr) throw std::runtime_error(std::strerror(errno));
     }
     ~FileStream() override {
@@ -76,7 +97,8 @@ class FileStream final : public exr::OStream {
 
     void write(const char c[], int n) override {
         if (n <= 0) return;
-        if (std::fwrite(c, 1, static_cast<std::size_t>(n), file_) != static_cast<std::size_t>(n)) fail();
+        if (std::fwrite(c, 1, static_cast<std::size_t>(n), file_) != static_cast<std::size_t>(n))
+            fail();
     }
     std::uint64_t tellp() override { return static_cast<std::uint64_t>(ftello(file_)); }
     void seekp(std::uint64_t pos) override {
@@ -107,7 +129,9 @@ exr::PixelType exr_type(ExrPixelType type) {
     return exr::FLOAT;
 }
 
-std::size_t value_size(ExrPixelType type) { return type == ExrPixelType::Half ? sizeof(half) : sizeof(float); }
+std::size_t value_size(ExrPixelType type) {
+    return type == ExrPixelType::Half ? sizeof(half) : sizeof(float);
+}
 
 exr::Compression exr_compression(ExrCompression compression) {
     switch (compression) {
@@ -126,10 +150,12 @@ exr::Compression exr_compression(ExrCompression compression) {
 }
 
 void add_attribute(exr::Header& header, const std::string& name, const ExrAttribute& value) {
-    if (kReserved.contains(name)) throw std::runtime_error("the header attribute \"" + name + "\" cannot be chosen");
+    if (kReserved.contains(name))
+        throw std::runtime_error("the header attribute \"" + name + "\" cannot be chosen");
     if (const int* i = std::get_if<int>(&value)) header.insert(name, exr::IntAttribute(*i));
     if (const float* f = std::get_if<float>(&value)) header.insert(name, exr::FloatAttribute(*f));
-    if (const std::string* s = std::get_if<std::string>(&value)) header.insert(name, exr::StringAttribute(*s));
+    if (const std::string* s = std::get_if<std::string>(&value))
+        header.insert(name, exr::StringAttribute(*s));
     if (const std::vector<float>* v = std::get_if<std::vector<float>>(&value)) {
         if (v->size() == 16) {
             IMATH_NAMESPACE::M44f m;
@@ -143,15 +169,21 @@ void add_attribute(exr::Header& header, const std::string& name, const ExrAttrib
 
 exr::Chromaticities exr_chromaticities(Primaries primaries) {
     const Chromaticities c = chromaticities(primaries);
-    const auto point = [](double x, double y) { return V2f(static_cast<float>(x), static_cast<float>(y)); };
-    return {point(c.red_x, c.red_y), point(c.green_x, c.green_y), point(c.blue_x, c.blue_y), point(c.white_x, c.white_y)};
+    const auto point = [](double x, double y) {
+        return V2f(static_cast<float>(x), static_cast<float>(y));
+    };
+    return {point(c.red_x, c.red_y), point(c.green_x, c.green_y), point(c.blue_x, c.blue_y),
+            point(c.white_x, c.white_y)};
 }
 
 exr::Header make_header(const ExrWriteSpec& spec, const ExrPart& part) {
     const Box2i display(V2i(0, 0), V2i(spec.width - 1, spec.height - 1));
-    const Box2i data(V2i(spec.data_x, spec.data_y), V2i(spec.data_x + spec.data_width - 1, spec.data_y + spec.data_height - 1));
+    const Box2i data(V2i(spec.data_x, spec.data_y),
+                     V2i(spec.data_x + spec.data_width - 1, spec.data_y + spec.data_height - 1));
     // Tiles are stored as they come: random order is what lets them be written at once.
-    exr::Header header(display, data, spec.pixel_aspect_ratio, V2f(0, 0), 1, spec.tiled ? exr::RANDOM_Y : exr::INCREASING_Y, exr_compression(spec.compression));
+    exr::Header header(display, data, spec.pixel_aspect_ratio, V2f(0, 0), 1,
+                       spec.tiled ? exr::RANDOM_Y : exr::INCREASING_Y,
+                       exr_compression(spec.compression));
     if (spec.tiled) {
         const auto size = static_cast<unsigned>(spec.tile_size);
         header.setTileDescription(exr::TileDescription(size, size, exr::ONE_LEVEL));
@@ -160,21 +192,29 @@ exr::Header make_header(const ExrWriteSpec& spec, const ExrPart& part) {
     if (spec.parts.size() > 1) header.setName(part.name);
     exr::addChromaticities(header, exr_chromaticities(spec.primaries));
     for (const ExrChannel& channel : part.channels) {
-        if (header.channels().findChannel(channel.name) != nullptr) throw std::runtime_error("two channels are named \"" + channel.name + "\"");
+        if (header.channels().findChannel(channel.name) != nullptr)
+            throw std::runtime_error("two channels are named \"" + channel.name + "\"");
         header.channels().insert(channel.name, exr::Channel(exr_type(channel.type)));
     }
-    for (const auto& [name, value] : spec.attributes) add_attribute(header, name, value);
+    for (const auto& [name, value] : spec.attributes)
+        add_attribute(header, name, value);
     return header;
 }
 
 void check_spec(const std::string& path, const ExrWriteSpec& spec) {
-    const bool sized = spec.width > 0 && spec.height > 0 && spec.data_width > 0 && spec.data_height > 0;
+    const bool sized =
+        spec.width > 0 && spec.height > 0 && spec.data_width > 0 && spec.data_height > 0;
     if (!sized) refuse(path, "the picture is empty", "choose a larger resolution or region");
-    if (spec.tile_size < 1 || spec.tile_size > kMaxTileSize) refuse(path, "tiles of " + std::to_string(spec.tile_size) + " pixels", "choose a bucket_size from 1 to " + std::to_string(kMaxTileSize));
+    if (spec.tile_size < 1 || spec.tile_size > kMaxTileSize)
+        refuse(path, "tiles of " + std::to_string(spec.tile_size) + " pixels",
+               "choose a bucket_size from 1 to " + std::to_string(kMaxTileSize));
     std::set<std::string> names;
     for (const ExrPart& part : spec.parts) {
-        if (part.channels.empty()) refuse(path, "a part has no channels", "give the driver an output");
-        if (!names.insert(part.name).second) refuse(path, "two parts are named \"" + part.name + "\"", "give one of the outputs a layer name");
+        if (part.channels.empty())
+            refuse(path, "a part has no channels", "give the driver an output");
+        if (!names.insert(part.name).second)
+            refuse(path, "two parts are named \"" + part.name + "\"",
+                   "give one of the outputs a layer name");
     }
     if (spec.parts.empty()) refuse(path, "there is nothing to write", "give the driver an output");
 }
@@ -184,7 +224,9 @@ struct Block {
     int x = 0, y = 0, width = 0, height = 0;  ///< in the data window
     std::size_t n_missing = 0;                ///< pixels that have not come yet
     std::vector<char> bytes;                  ///< channel after channel
-    [[nodiscard]] std::size_t n_pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+    [[nodiscard]] std::size_t n_pixels() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
 };
 
 struct Rect {
@@ -213,7 +255,8 @@ struct ExrWriter::State {
         block_height = spec.tile_size;
         n_across = (spec.data_width + block_width - 1) / block_width;
         n_down = (spec.data_height + block_height - 1) / block_height;
-        written.assign(static_cast<std::size_t>(n_across) * static_cast<std::size_t>(n_down), false);
+        written.assign(static_cast<std::size_t>(n_across) * static_cast<std::size_t>(n_down),
+                       false);
         for (const ExrPart& part : spec.parts) {
             for (const ExrChannel& channel : part.channels) {
                 types.push_back(channel.type);
@@ -235,19 +278,27 @@ struct ExrWriter::State {
     }
 
     /// Copies the part of `rect` (data window) that lies in a block. `origin_*`: where `planes` begin.
-    void fill(Block& block, const Rect& rect, int origin_x, int origin_y, std::span<const ExrPlane> planes) const {
-        const Rect part{std::max(rect.x0, block.x), std::max(rect.y0, block.y), std::min(rect.x1, block.x + block.width), std::min(rect.y1, block.y + block.height)};
+    void fill(Block& block, const Rect& rect, int origin_x, int origin_y,
+              std::span<const ExrPlane> planes) const {
+        const Rect part{std::max(rect.x0, block.x), std::max(rect.y0, block.y),
+                        std::min(rect.x1, block.x + block.width),
+                        std::min(rect.y1, block.y + block.height)};
         const int n = part.x1 - part.x0;
         for (std::size_t c = 0; c < planes.size(); ++c) {
             const ExrPlane& plane = planes[c];
             char* const channel = block.bytes.data() + pixel_offset[c] * block.n_pixels();
             for (int y = part.y0; y < part.y1; ++y) {
-                const float* from = plane.data + (y - origin_y) * plane.row_stride + (part.x0 - origin_x) * plane.pixel_stride;
-                const auto at = static_cast<std::size_t>(y - block.y) * static_cast<std::size_t>(block.width) + static_cast<std::size_t>(part.x0 - block.x);
-                store_row(types[c], from, plane.pixel_stride, n, channel + at * value_size(types[c]));
+                const float* from = plane.data + (y - origin_y) * plane.row_stride +
+                                    (part.x0 - origin_x) * plane.pixel_stride;
+                const auto at =
+                    static_cast<std::size_t>(y - block.y) * static_cast<std::size_t>(block.width) +
+                    static_cast<std::size_t>(part.x0 - block.x);
+                store_row(types[c], from, plane.pixel_stride, n,
+                          channel + at * value_size(types[c]));
             }
         }
-        const auto area = static_cast<std::size_t>(n) * static_cast<std::size_t>(part.y1 - part.y0);
+        const auto area =
+            static_cast<std::size_t>(n) * static_cast<std::size_t>(part.y1 - part.y0);
         block.n_missing -= std::min(area, block.n_missing);
     }
 
@@ -257,8 +308,12 @@ struct ExrWriter::State {
         for (int p = 0; p < static_cast<int>(spec.parts.size()); ++p) {
             exr::FrameBuffer buffer;
             for (const ExrChannel& channel : spec.parts[static_cast<std::size_t>(p)].channels) {
-                buffer.insert(channel.name, exr::Slice::Make(exr_type(channel.type), block.bytes.data() + pixel_offset[c] * block.n_pixels(),
-                                                             V2i(spec.data_x + block.x, spec.data_y + block.y), block.width, block.height));
+                buffer.insert(
+                    channel.name,
+                    exr::Slice::Make(exr_type(channel.type),
+                                     block.bytes.data() + pixel_offset[c] * block.n_pixels(),
+                                     V2i(spec.data_x + block.x, spec.data_y + block.y),
+                                     block.width, block.height));
                 ++c;
             }
             if (spec.tiled) {
@@ -277,7 +332,8 @@ struct ExrWriter::State {
     /// Emits what can be emitted: any complete tile, or complete bands from the top.
     void flush() {
         for (auto it = pending.begin(); it != pending.end();) {
-            const bool in_turn = spec.tiled || it->first == 0 || written[static_cast<std::size_t>(it->first) - 1];
+            const bool in_turn =
+                spec.tiled || it->first == 0 || written[static_cast<std::size_t>(it->first) - 1];
             if (!in_turn) break;
             if (it->second.n_missing > 0) {
                 if (!spec.tiled) break;
@@ -292,12 +348,12 @@ struct ExrWriter::State {
     ExrWriteSpec spec;
     AtomicFile file;
     int block_width = 0, block_height = 0, n_across = 0, n_down = 0;
-    std::vector<ExrPixelType> types;         ///< of all channels, part after part
-    std::vector<std::size_t> pixel_offset;   ///< bytes of the channels before, for one pixel
+    std::vector<ExrPixelType> types;        ///< of all channels, part after part
+    std::vector<std::size_t> pixel_offset;  ///< bytes of the channels before, for one pixel
     std::size_t bytes_per_pixel = 0;
-    std::map<int, Block> pending;            ///< begun, by number
-    std::vector<bool> written;               ///< by number
-    std::optional<FileStream> stream;        ///< outlives `output`
+    std::map<int, Block> pending;      ///< begun, by number
+    std::vector<bool> written;         ///< by number
+    std::optional<FileStream> stream;  ///< outlives `output`
     std::unique_ptr<exr::MultiPartOutputFile> output;
 };
 
@@ -307,9 +363,11 @@ ExrWriter::ExrWriter(const std::string& path, ExrWriteSpec spec) {
     State& s = *state_;
     guarded(path, [&s] {
         std::vector<exr::Header> headers;
-        for (const ExrPart& part : s.spec.parts) headers.push_back(make_header(s.spec, part));
+        for (const ExrPart& part : s.spec.parts)
+            headers.push_back(make_header(s.spec, part));
         s.stream.emplace(s.file.temporary());
-        s.output = std::make_unique<exr::MultiPartOutputFile>(*s.stream, headers.data(), static_cast<int>(headers.size()));
+        s.output = std::make_unique<exr::MultiPartOutputFile>(*s.stream, headers.data(),
+                                                              static_cast<int>(headers.size()));
     });
 }
 
@@ -317,9 +375,12 @@ ExrWriter::~ExrWriter() = default;
 
 void ExrWriter::write(int x, int y, int width, int height, std::span<const ExrPlane> planes) {
     State& s = *state_;
-    LIGHTSIEVE_ASSERT(planes.size() == s.types.size(), std::to_string(planes.size()) + " planes for " + std::to_string(s.types.size()) + " channels");
+    LIGHTSIEVE_ASSERT(planes.size() == s.types.size(),
+                      std::to_string(planes.size()) + " planes for " +
+                          std::to_string(s.types.size()) + " channels");
     const int left = x - s.spec.data_x, top = y - s.spec.data_y;
-    const Rect rect{std::max(left, 0), std::max(top, 0), std::min(left + width, s.spec.data_width), std::min(top + height, s.spec.data_height)};
+    const Rect rect{std::max(left, 0), std::max(top, 0), std::min(left + width, s.spec.data_width),
+                    std::min(top + height, s.spec.data_height)};
     if (rect.x0 >= rect.x1 || rect.y0 >= rect.y1) return;
     guarded(s.file.path(), [&] {
         for (int by = rect.y0 / s.block_height; by <= (rect.y1 - 1) / s.block_height; ++by) {
@@ -327,7 +388,8 @@ void ExrWriter::write(int x, int y, int width, int height, std::span<const ExrPl
                 const int index = by * s.n_across + bx;
                 if (s.written[static_cast<std::size_t>(index)]) continue;
                 auto it = s.pending.find(index);
-                if (it == s.pending.end()) it = s.pending.emplace(index, s.make_block(index)).first;
+                if (it == s.pending.end())
+                    it = s.pending.emplace(index, s.make_block(index)).first;
                 s.fill(it->second, rect, left, top, planes);
             }
         }

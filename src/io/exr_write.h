@@ -19,7 +19,18 @@
 namespace lightsieve {
 
 enum class ExrPixelType : std::uint8_t { Half, Float, UInt };
-enum class ExrCompression : std::uint8_t { None, Rle, Zip, Zips, Piz, Pxr24, B44, B44a, Dwaa, Dwab };
+enum class ExrCompression : std::uint8_t {
+    None,
+    Rle,
+    Zip,
+    Zips,
+    Piz,
+    Pxr24,
+    B44,
+    B44a,
+    Dwaa,
+    Dwab
+};
 
 struct ExrChannel {
     std::string name;  ///< full name, e.g. "diffuse.R"
@@ -40,7 +51,8 @@ struct ExrWriteSpec {
     int data_x = 0, data_y = 0, data_width = 0, data_height = 0;  ///< data window
     float pixel_aspect_ratio = 1;
     bool tiled = true;
-    int tile_size = 64;         ///< tiles are squares on a grid from data_x, data_y; for scanline files the height of a band
+    int tile_size =
+        64;  ///< tiles are squares on a grid from data_x, data_y; for scanline files the height of a band
     ExrCompression compression = ExrCompression::Zip;
     std::vector<ExrPart> parts;
     std::map<std::string, ExrAttribute> attributes;  ///< in every part's header

@@ -13,25 +13,36 @@ namespace {
     throw InputError(Error{code, std::move(message), where, std::move(hint), {}, Severity::Error});
 }
 
-[[noreturn]] void damaged(const std::string& path, const std::string& why, const SourceSpan& where) {
-    fail(Code::FileFormat, "picture \"" + path + "\" cannot be read: " + why, where, "write the file again, or convert it to EXR, TIFF or PNG");
+[[noreturn]] void damaged(const std::string& path, const std::string& why,
+                          const SourceSpan& where) {
+    fail(Code::FileFormat, "picture \"" + path + "\" cannot be read: " + why, where,
+         "write the file again, or convert it to EXR, TIFF or PNG");
 }
 
 }  // namespace
 
-ColorImage read_color_image(const std::string& path, std::string_view color_space, Diagnostics& diagnostics, const SourceSpan& where, std::size_t max_pixels) {
+ColorImage read_color_image(const std::string& path, std::string_view color_space,
+                            Diagnostics& diagnostics, const SourceSpan& where,
+                            std::size_t max_pixels) {
     std::error_code ec;
-    if (!std::filesystem::exists(path, ec)) fail(Code::FileNotFound, "there is no picture \"" + path + "\"", where, "check the name and the search paths");
+    if (!std::filesystem::exists(path, ec))
+        fail(Code::FileNotFound, "there is no picture \"" + path + "\"", where,
+             "check the name and the search paths");
     const OIIO::ImageSpec config = reader_settings();
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
     if (!input) damaged(path, OIIO::geterror(), where);
     const OIIO::ImageSpec spec = input->spec();
-    if (spec.deep || spec.depth > 1 || spec.nchannels < 1) damaged(path, "it is deep or three-dimensional", where);
+    if (spec.deep || spec.depth > 1 || spec.nchannels < 1)
+        damaged(path, "it is deep or three-dimensional", where);
     if (static_cast<std::size_t>(spec.image_pixels()) > max_pixels) {
-        fail(Code::LimitImageSize, "picture \"" + path + "\" has " + std::to_string(spec.width) + "x" + std::to_string(spec.height) + " pixels, more than " + std::to_string(max_pixels), where,
-             "use a smaller picture");
+        fail(Code::LimitImageSize,
+             "picture \"" + path + "\" has " + std::to_string(spec.width) + "x" +
+                 std::to_string(spec.height) + " pixels, more than " + std::to_string(max_pixels),
+             where, "use a smaller picture");
     }
-    const TexelConversion conversion(spec, resolve_color_space(color_space, is_float_format(spec) ? kRenderingSpace : kSrgb, diagnostics, where));
+    const TexelConversion conversion(
+        spec, resolve_color_space(color_space, is_float_format(spec) ? kRenderingSpace : kSrgb,
+                                  diagnostics, where));
 
     // Read in strips: a file may have many more channels than the three that are kept.
     constexpr int kRows = 64;
@@ -44,12 +55,17 @@ ColorImage read_color_image(const std::string& path, std::string_view color_spac
     for (int y = 0; y < spec.height; y += rows) {
         const int end = std::min(y + rows, spec.height);
         strip.resize(width * static_cast<std::size_t>(end - y) * n_channels);
-        const bool ok = spec.tile_width > 0 ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, spec.z, spec.z + 1, 0, spec.nchannels, OIIO::TypeFloat, strip.data())
-                                            : input->read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, spec.nchannels, OIIO::TypeFloat, strip.data());
+        const bool ok = spec.tile_width > 0
+                            ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + y,
+                                                spec.y + end, spec.z, spec.z + 1, 0,
+                                                spec.nchannels, OIIO::TypeFloat, strip.data())
+                            : input->read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0,
+                                                    spec.nchannels, OIIO::TypeFloat, strip.data());
         if (!ok) damaged(path, input->geterror(), where);
         conversion.apply(strip.data(), strip.size() / n_channels);
         for (std::size_t i = 0; i < strip.size(); i += n_channels) {
-            image.pixels.push_back(n_channels >= 3 ? Color(strip[i], strip[i + 1], strip[i + 2]) : Color::grey(strip[i]));
+            image.pixels.push_back(n_channels >= 3 ? Color(strip[i], strip[i + 1], strip[i + 2])
+                                                   : Color::grey(strip[i]));
         }
     }
     return image;

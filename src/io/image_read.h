@@ -17,7 +17,10 @@ namespace lightsieve {
 struct ColorImage {
     int width = 0, height = 0;
     std::vector<Color> pixels;  ///< height * width, linear in the rendering space
-    [[nodiscard]] Color at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+    [[nodiscard]] Color at(int x, int y) const {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)];
+    }
 };
 
 /// Pictures above this are refused: 32768 x 16384.
@@ -27,7 +30,8 @@ inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 29;
 ///
 /// color_space  as for textures: "auto", "" raw, or a name
 /// throws       InputError: missing, damaged, deep or too large
-[[nodiscard]] ColorImage read_color_image(const std::string& path, std::string_view color_space, Diagnostics& diagnostics, const SourceSpan& where = {},
+[[nodiscard]] ColorImage read_color_image(const std::string& path, std::string_view color_space,
+                                          Diagnostics& diagnostics, const SourceSpan& where = {},
                                           std::size_t max_pixels = kMaxImagePixels);
 
 }  // namespace lightsieve

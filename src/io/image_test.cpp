@@ -27,8 +27,10 @@ class ImageTest : public FolderTest {
         }
         if (spec != nullptr) *spec = input->spec();
         EXPECT_EQ(input->spec().format, OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value));
-        std::vector<T> pixels(static_cast<std::size_t>(input->spec().image_pixels()) * static_cast<std::size_t>(input->spec().nchannels));
-        EXPECT_TRUE(input->read_image(0, 0, 0, input->spec().nchannels, OIIO::BaseTypeFromC<T>::value, pixels.data()));
+        std::vector<T> pixels(static_cast<std::size_t>(input->spec().image_pixels()) *
+                              static_cast<std::size_t>(input->spec().nchannels));
+        EXPECT_TRUE(input->read_image(0, 0, 0, input->spec().nchannels,
+                                      OIIO::BaseTypeFromC<T>::value, pixels.data()));
         return pixels;
     }
 };
@@ -48,19 +50,24 @@ PictureSpec two_pixels(PictureFormat format, PictureType type) {
 TEST_F(ImageTest, IntegersAreClampedAndRounded) {
     EXPECT_EQ(quantize(0.5F, 255), 128U);
     EXPECT_EQ(quantize(1, 0xffffffffU), 0xffffffffU);
-    for (const auto& [format, name] : {std::pair(PictureFormat::Png, "a.png"), std::pair(PictureFormat::Tiff, "a.tif")}) {
+    for (const auto& [format, name] :
+         {std::pair(PictureFormat::Png, "a.png"), std::pair(PictureFormat::Tiff, "a.tif")}) {
         write_picture(in_folder(name), two_pixels(format, PictureType::UInt8), kValues);
-        EXPECT_EQ(stored<std::uint8_t>(name), (std::vector<std::uint8_t>{128, 0, 255, 64, 0, 255, 0, 255}));
+        EXPECT_EQ(stored<std::uint8_t>(name),
+                  (std::vector<std::uint8_t>{128, 0, 255, 64, 0, 255, 0, 255}));
         write_picture(in_folder(name), two_pixels(format, PictureType::UInt16), kValues);
-        EXPECT_EQ(stored<std::uint16_t>(name), (std::vector<std::uint16_t>{32768, 0, 65535, 16384, 0, 65535, 0, 65535}));
+        EXPECT_EQ(stored<std::uint16_t>(name),
+                  (std::vector<std::uint16_t>{32768, 0, 65535, 16384, 0, 65535, 0, 65535}));
     }
-    write_picture(in_folder("a.tif"), two_pixels(PictureFormat::Tiff, PictureType::UInt32), kValues);
+    write_picture(in_folder("a.tif"), two_pixels(PictureFormat::Tiff, PictureType::UInt32),
+                  kValues);
     EXPECT_EQ(stored<std::uint32_t>("a.tif")[0], 2147483648U);
     EXPECT_EQ(n_files(), 2U);
 }
 
 TEST_F(ImageTest, FloatTiffKeepsValuesInTilesAndAllCompressions) {
-    for (const TiffCompression compression : {TiffCompression::None, TiffCompression::Lzw, TiffCompression::Rle, TiffCompression::Zip}) {
+    for (const TiffCompression compression : {TiffCompression::None, TiffCompression::Lzw,
+                                              TiffCompression::Rle, TiffCompression::Zip}) {
         for (const int tile : {0, 64}) {
             PictureSpec spec = two_pixels(PictureFormat::Tiff, PictureType::Float);
             spec.compression = compression;
@@ -112,7 +119,8 @@ TEST_F(ImageTest, DitherKeepsTheMeanAndBlackAndWhite) {
 
 TEST_F(ImageTest, UnwritableFolderIsAnError) {
     try {
-        write_picture(in_folder("none/a.png"), two_pixels(PictureFormat::Png, PictureType::UInt8), kValues);
+        write_picture(in_folder("none/a.png"), two_pixels(PictureFormat::Png, PictureType::UInt8),
+                      kValues);
         FAIL();
     } catch (const InputError& e) {
         EXPECT_EQ(e.errors()[0].code, Code::FileUnwritable);
@@ -127,7 +135,8 @@ TEST_F(ImageTest, WholePicturesAreConvertedToTheRenderingSpace) {
     const ColorImage automatic = read_color_image(in_folder("a.png"), "auto", diagnostics);
     const Color green = ColorConversion(kSrgb, kRenderingSpace)({0, 1, 0});
     EXPECT_NEAR(automatic.at(0, 0).r, 1, 1e-5F);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(automatic.at(1, 0)[i], green[i], 1e-6F);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(automatic.at(1, 0)[i], green[i], 1e-6F);
     EXPECT_EQ(read_color_image(in_folder("a.png"), "", diagnostics).at(1, 0), Color(0, 1, 0));
 }
 
@@ -139,9 +148,12 @@ TEST_F(ImageTest, FloatPicturesStayAsTheyAre) {
     spec.tile_size = 32;
     spec.parts = {{"", {{"R"}, {"G"}, {"B"}}}};
     std::vector<float> pixels;
-    for (int i = 0; i < 100 * 70 * 3; ++i) pixels.push_back(static_cast<float>(i));
+    for (int i = 0; i < 100 * 70 * 3; ++i)
+        pixels.push_back(static_cast<float>(i));
     ExrWriter writer(in_folder("a.exr"), spec);
-    writer.write(0, 0, 100, 70, std::vector<ExrPlane>{{&pixels[0], 3, 300}, {&pixels[1], 3, 300}, {&pixels[2], 3, 300}});
+    writer.write(
+        0, 0, 100, 70,
+        std::vector<ExrPlane>{{&pixels[0], 3, 300}, {&pixels[1], 3, 300}, {&pixels[2], 3, 300}});
     writer.close();
     const ColorImage image = read_color_image(in_folder("a.exr"), "auto", diagnostics);
     EXPECT_EQ(image.width, 100);

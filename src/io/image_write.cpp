@@ -17,7 +17,12 @@ namespace lightsieve {
 namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-    throw InputError(Error{Code::FileUnwritable, "cannot write \"" + path + "\": " + why, {}, "check the free space of the disk", {}, Severity::Error});
+    throw InputError(Error{Code::FileUnwritable,
+                           "cannot write \"" + path + "\": " + why,
+                           {},
+                           "check the free space of the disk",
+                           {},
+                           Severity::Error});
 }
 
 const char* compression_name(TiffCompression compression) {
@@ -60,7 +65,9 @@ std::vector<std::byte> as_integers(std::span<const float> pixels, bool dither) {
     std::vector<std::byte> bytes(pixels.size() * sizeof(T));
     auto* out = reinterpret_cast<T*>(bytes.data());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        out[i] = dither && sizeof(T) == 1 ? static_cast<T>(dithered(pixels[i], i)) : static_cast<T>(quantize(pixels[i], static_cast<T>(~T{0})));
+        out[i] = dither && sizeof(T) == 1
+                     ? static_cast<T>(dithered(pixels[i], i))
+                     : static_cast<T>(quantize(pixels[i], static_cast<T>(~T{0})));
     }
     return bytes;
 }
@@ -80,14 +87,16 @@ OIIO::ImageSpec oiio_spec(const PictureSpec& spec) {
     OIIO::ImageSpec out(spec.width, spec.height, spec.n_channels, oiio_type(spec.type));
     if (spec.n_channels == 4) out.alpha_channel = 3;
     // PNG has no premultiplied form and OpenImageIO would divide by alpha: what is handed over is to be stored.
-    if (spec.unassociated_alpha || spec.format == PictureFormat::Png) out.attribute("oiio:UnassociatedAlpha", 1);
+    if (spec.unassociated_alpha || spec.format == PictureFormat::Png)
+        out.attribute("oiio:UnassociatedAlpha", 1);
     if (spec.format == PictureFormat::Tiff) {
         out.attribute("compression", compression_name(spec.compression));
         out.tile_width = out.tile_height = spec.tile_size;
         out.tile_depth = spec.tile_size > 0 ? 1 : 0;
     }
     if (spec.pixel_aspect_ratio != 1) out.attribute("PixelAspectRatio", spec.pixel_aspect_ratio);
-    for (const auto& [name, text] : spec.metadata) out.attribute(name, text);
+    for (const auto& [name, text] : spec.metadata)
+        out.attribute(name, text);
     return out;
 }
 
@@ -96,14 +105,20 @@ OIIO::ImageSpec oiio_spec(const PictureSpec& spec) {
 std::uint32_t quantize(float value, std::uint32_t max) {
     if (std::isnan(value)) return 0;
     // Double: 32-bit integers do not fit into a float.
-    return static_cast<std::uint32_t>(std::clamp(static_cast<double>(value), 0.0, 1.0) * max + 0.5);
+    return static_cast<std::uint32_t>(std::clamp(static_cast<double>(value), 0.0, 1.0) * max +
+                                      0.5);
 }
 
-void write_picture(const std::string& path, const PictureSpec& spec, std::span<const float> pixels) {
-    const std::size_t n = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * static_cast<std::size_t>(spec.n_channels);
-    LIGHTSIEVE_ASSERT(pixels.size() == n, std::to_string(pixels.size()) + " values for a picture of " + std::to_string(n));
+void write_picture(const std::string& path, const PictureSpec& spec,
+                   std::span<const float> pixels) {
+    const std::size_t n = static_cast<std::size_t>(spec.width) *
+                          static_cast<std::size_t>(spec.height) *
+                          static_cast<std::size_t>(spec.n_channels);
+    LIGHTSIEVE_ASSERT(pixels.size() == n, std::to_string(pixels.size()) +
+                                              " values for a picture of " + std::to_string(n));
     AtomicFile file(path);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(spec.format == PictureFormat::Png ? "png" : "tiff");
+    const std::unique_ptr<OIIO::ImageOutput> output =
+        OIIO::ImageOutput::create(spec.format == PictureFormat::Png ? "png" : "tiff");
     if (!output) refuse(path, OIIO::geterror());
     if (!output->open(file.temporary(), oiio_spec(spec))) refuse(path, output->geterror());
     const std::vector<std::byte> bytes = stored_bytes(spec, pixels);

@@ -18,13 +18,15 @@ enum class TiffCompression : std::uint8_t { None, Lzw, Rle, Zip };
 
 struct PictureSpec {
     int width = 0, height = 0;
-    int n_channels = 0;              ///< 1, 3 or 4 (the fourth is alpha)
+    int n_channels = 0;  ///< 1, 3 or 4 (the fourth is alpha)
     PictureFormat format = PictureFormat::Png;
     PictureType type = PictureType::UInt8;
     TiffCompression compression = TiffCompression::Lzw;
-    int tile_size = 0;               ///< TIFF: multiple of 16, or 0 for scanlines
-    bool dither = false;             ///< UInt8 only: noise of one step, the same for every run, keeps the mean
-    bool unassociated_alpha = false; ///< colours are not multiplied by alpha; TIFF says so in its header
+    int tile_size = 0;  ///< TIFF: multiple of 16, or 0 for scanlines
+    bool dither =
+        false;  ///< UInt8 only: noise of one step, the same for every run, keeps the mean
+    bool unassociated_alpha =
+        false;  ///< colours are not multiplied by alpha; TIFF says so in its header
     float pixel_aspect_ratio = 1;
     std::map<std::string, std::string> metadata;  ///< text only
 };
@@ -34,6 +36,7 @@ struct PictureSpec {
 
 /// Writes a picture. pixels: height * width * n_channels, row 0 at the top.
 /// throws  InputError: the folder or the disk refuses
-void write_picture(const std::string& path, const PictureSpec& spec, std::span<const float> pixels);
+void write_picture(const std::string& path, const PictureSpec& spec,
+                   std::span<const float> pixels);
 
 }  // namespace lightsieve

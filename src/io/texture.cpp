@@ -82,7 +82,8 @@ struct TextureCache::State {
     OIIO::TextureSystem* system = nullptr;
     std::uint64_t id = next_cache_id++;
     std::mutex mutex;  ///< guards what follows
-    std::map<std::tuple<std::string, Primaries, Transfer, bool>, std::unique_ptr<Texture>> textures;
+    std::map<std::tuple<std::string, Primaries, Transfer, bool>, std::unique_ptr<Texture>>
+        textures;
     std::map<std::string, std::string> failures;  ///< path to the first message
 
     OIIO::TextureSystem::Perthread* thread() const {
@@ -97,13 +98,17 @@ struct TextureCache::State {
         failures.emplace(texture.path, message);
     }
 
-    std::unique_ptr<Texture> load(const std::string& path, const TextureInfo& info, std::string& problem);
+    std::unique_ptr<Texture> load(const std::string& path, const TextureInfo& info,
+                                  std::string& problem);
     bool readable(const Texture& texture, std::string& problem);
 };
 
 namespace {
 
-void report(Diagnostics& diagnostics, Code code, const std::string& message, const SourceSpan& where, const std::string& hint) { diagnostics.error(code, message, where, hint); }
+void report(Diagnostics& diagnostics, Code code, const std::string& message,
+            const SourceSpan& where, const std::string& hint) {
+    diagnostics.error(code, message, where, hint);
+}
 
 /// Describes a file without keeping it open. False with `problem` set.
 bool read_info(const std::string& path, TextureInfo& info, std::string& problem) {
@@ -140,7 +145,8 @@ TextureCache::~TextureCache() {
     OIIO::TextureSystem::destroy(state_->system, true);
 }
 
-std::unique_ptr<Texture> TextureCache::State::load(const std::string& path, const TextureInfo& info, std::string& problem) {
+std::unique_ptr<Texture> TextureCache::State::load(const std::string& path,
+                                                   const TextureInfo& info, std::string& problem) {
     // A made-up name: OpenImageIO would look for patterns such as <UDIM> in the real one.
     const OIIO::ustring name("lightsieve-texture-" + std::to_string(textures.size()));
     const OIIO::ImageSpec settings = ConvertingInput::settings(path, info.space);
@@ -166,15 +172,19 @@ bool TextureCache::State::readable(const Texture& texture, std::string& problem)
     const int x = spec->x + spec->width - 1, y = spec->y + spec->height - 1;
     std::vector<float> texel(static_cast<std::size_t>(spec->nchannels));
     OIIO::TextureOpt options;
-    if (system->get_texels(texture.handle, nullptr, options, 0, x, x + 1, y, y + 1, 0, 1, 0, spec->nchannels, OIIO::TypeFloat, texel.data())) return true;
+    if (system->get_texels(texture.handle, nullptr, options, 0, x, x + 1, y, y + 1, 0, 1, 0,
+                           spec->nchannels, OIIO::TypeFloat, texel.data()))
+        return true;
     problem = system->geterror();
     return false;
 }
 
-const Texture* TextureCache::open(const std::string& path, std::string_view color_space, Diagnostics& diagnostics, const SourceSpan& where) {
+const Texture* TextureCache::open(const std::string& path, std::string_view color_space,
+                                  Diagnostics& diagnostics, const SourceSpan& where) {
     std::error_code ec;
     if (!std::filesystem::exists(path, ec)) {
-        report(diagnostics, Code::FileNotFound, "there is no texture \"" + path + "\"", where, "check the name and options.texture_searchpath, or set ignore_missing_textures");
+        report(diagnostics, Code::FileNotFound, "there is no texture \"" + path + "\"", where,
+               "check the name and options.texture_searchpath, or set ignore_missing_textures");
         return nullptr;
     }
     TextureInfo info;
@@ -182,23 +192,27 @@ const Texture* TextureCache::open(const std::string& path, std::string_view colo
     std::unique_ptr<Texture> loaded;
     try {
         if (read_info(path, info, problem)) {
-            info.space = resolve_color_space(color_space, info.is_float ? kRenderingSpace : kSrgb, diagnostics, where);
+            info.space = resolve_color_space(color_space, info.is_float ? kRenderingSpace : kSrgb,
+                                             diagnostics, where);
             const std::lock_guard lock(state_->mutex);
             const std::tuple key(path, info.space.primaries, info.space.transfer, info.space.raw);
-            if (const auto it = state_->textures.find(key); it != state_->textures.end()) return it->second.get();
+            if (const auto it = state_->textures.find(key); it != state_->textures.end())
+                return it->second.get();
             loaded = state_->load(path, info, problem);
             if (loaded) return (state_->textures[key] = std::move(loaded)).get();
         }
     } catch (const std::exception& e) {
         problem = e.what();
     }
-    report(diagnostics, Code::FileFormat, "texture \"" + path + "\" cannot be read: " + problem, where, "write the file again, or convert it to .tx, EXR, TIFF or PNG");
+    report(diagnostics, Code::FileFormat, "texture \"" + path + "\" cannot be read: " + problem,
+           where, "write the file again, or convert it to .tx, EXR, TIFF or PNG");
     return nullptr;
 }
 
 const TextureInfo& TextureCache::info(const Texture& texture) { return texture.info; }
 
-Rgba TextureCache::lookup(const Texture& texture, Vec2f uv, float footprint, const TextureSampling& sampling) const noexcept {
+Rgba TextureCache::lookup(const Texture& texture, Vec2f uv, float footprint,
+                          const TextureSampling& sampling) const noexcept {
     const int first = sampling.start_channel;
     const int n_there = std::max(0, texture.info.n_channels - first);
     const int n = sampling.single_channel ? std::min(1, n_there) : std::min(4, n_there);
@@ -216,7 +230,8 @@ Rgba TextureCache::lookup(const Texture& texture, Vec2f uv, float footprint, con
     options.mipmode = OIIO::TextureOpt::MipModeAniso;
     float v[4] = {0, 0, 0, 1};
     try {
-        if (!state_->system->texture(texture.handle, state_->thread(), options, s, t, width, 0, 0, width, n, v)) {
+        if (!state_->system->texture(texture.handle, state_->thread(), options, s, t, width, 0, 0,
+                                     width, n, v)) {
             state_->note_failure(texture);
             return {kBlack, 1};
         }
@@ -231,7 +246,10 @@ Rgba TextureCache::lookup(const Texture& texture, Vec2f uv, float footprint, con
 void TextureCache::report_failures(Diagnostics& diagnostics) const {
     const std::lock_guard lock(state_->mutex);
     for (const auto& [path, message] : state_->failures) {
-        diagnostics.error(Code::FileUnreadable, "texture \"" + path + "\" failed while rendering and gave black: " + message, {}, "check that the file was not changed or removed meanwhile");
+        diagnostics.error(
+            Code::FileUnreadable,
+            "texture \"" + path + "\" failed while rendering and gave black: " + message, {},
+            "check that the file was not changed or removed meanwhile");
     }
 }
 

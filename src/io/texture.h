@@ -31,8 +31,8 @@ struct TextureInfo {
     int width = 0, height = 0;  ///< of the largest level [texels]
     int n_channels = 0;
     bool has_alpha = false;
-    bool is_float = false;      ///< half or float; false: integers
-    ColorSpace space{};         ///< what its colours were taken for
+    bool is_float = false;  ///< half or float; false: integers
+    ColorSpace space{};     ///< what its colours were taken for
 };
 
 /// How to look up; plain data, made once per node.
@@ -59,14 +59,16 @@ class TextureCache {
     /// path         an existing file, after search paths
     /// color_space  as written in a scene: "auto" (integers sRGB, floats the rendering space), "" raw, or a name
     /// returns      the texture, valid as long as the cache; null with an error reported at `where`
-    [[nodiscard]] const Texture* open(const std::string& path, std::string_view color_space, Diagnostics& diagnostics, const SourceSpan& where);
+    [[nodiscard]] const Texture* open(const std::string& path, std::string_view color_space,
+                                      Diagnostics& diagnostics, const SourceSpan& where);
     [[nodiscard]] static const TextureInfo& info(const Texture& texture);
 
     /// The filtered colour in the rendering space and alpha (1 if the file has none). Hot path: no locks of ours, no strings.
     ///
     /// uv         v = 0 is the bottom row
     /// footprint  width of the area to be averaged [uv units]; 0: the largest level, magnified
-    [[nodiscard]] Rgba lookup(const Texture& texture, Vec2f uv, float footprint, const TextureSampling& sampling) const noexcept;
+    [[nodiscard]] Rgba lookup(const Texture& texture, Vec2f uv, float footprint,
+                              const TextureSampling& sampling) const noexcept;
 
     /// Reports look-ups that failed while rendering (files damaged or gone); such look-ups gave black.
     void report_failures(Diagnostics& diagnostics) const;

@@ -30,7 +30,10 @@ OIIO::ImageSpec reader_settings() {
 }
 
 TexelConversion::TexelConversion(const OIIO::ImageSpec& spec, ColorSpace from)
-    : color(from, kRenderingSpace), n_channels(spec.nchannels), n_color(spec.nchannels >= 3 ? 3 : 1), alpha_channel(spec.alpha_channel) {
+    : color(from, kRenderingSpace),
+      n_channels(spec.nchannels),
+      n_color(spec.nchannels >= 3 ? 3 : 1),
+      alpha_channel(spec.alpha_channel) {
     if (alpha_channel < n_color) alpha_channel = -1;
     if (alpha_channel < 0) return;
     const bool unassociated = spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
@@ -48,7 +51,8 @@ void TexelConversion::apply(float* pixels, std::size_t n) const {
         if (divided) c = c * (1 / alpha);
         c = n_color == 3 ? color(c) : Color::grey(color.grey(c.r));
         if (divided || (multiply_alpha && !divide_alpha)) c = c * alpha;
-        for (int channel = 0; channel < n_color; ++channel) p[channel] = c[channel];
+        for (int channel = 0; channel < n_color; ++channel)
+            p[channel] = c[channel];
     }
 }
 
@@ -66,10 +70,12 @@ bool ConvertingInput::open(const std::string& name, OIIO::ImageSpec&) {
     return false;
 }
 
-bool ConvertingInput::open(const std::string&, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) {
+bool ConvertingInput::open(const std::string&, OIIO::ImageSpec& spec,
+                           const OIIO::ImageSpec& config) {
     close();
     const std::string path = config.get_string_attribute("lightsieve:path");
-    const ColorSpace from{static_cast<Primaries>(config.get_int_attribute("lightsieve:primaries")), static_cast<Transfer>(config.get_int_attribute("lightsieve:transfer")),
+    const ColorSpace from{static_cast<Primaries>(config.get_int_attribute("lightsieve:primaries")),
+                          static_cast<Transfer>(config.get_int_attribute("lightsieve:transfer")),
                           config.get_int_attribute("lightsieve:raw") != 0};
     const OIIO::ImageSpec inner_config = reader_settings();
     inner_ = OIIO::ImageInput::open(path, &inner_config);
@@ -139,10 +145,13 @@ bool ConvertingInput::read_native_scanline(int, int, int, int, void*) {
 bool ConvertingInput::read_native_tile(int subimage, int miplevel, int x, int y, int, void* data) {
     const lock_guard lock(*this);
     if (!seek_subimage(subimage, miplevel)) return false;
-    if (conversion_.identity()) return fetch_tile(x, y, m_spec.format, static_cast<std::byte*>(data));
-    const auto n_pixels = static_cast<std::size_t>(m_spec.tile_width) * static_cast<std::size_t>(m_spec.tile_height);
+    if (conversion_.identity())
+        return fetch_tile(x, y, m_spec.format, static_cast<std::byte*>(data));
+    const auto n_pixels =
+        static_cast<std::size_t>(m_spec.tile_width) * static_cast<std::size_t>(m_spec.tile_height);
     scratch_.resize(n_pixels * static_cast<std::size_t>(m_spec.nchannels));
-    if (!fetch_tile(x, y, OIIO::TypeFloat, reinterpret_cast<std::byte*>(scratch_.data()))) return false;
+    if (!fetch_tile(x, y, OIIO::TypeFloat, reinterpret_cast<std::byte*>(scratch_.data())))
+        return false;
     conversion_.apply(scratch_.data(), n_pixels);
     std::memcpy(data, scratch_.data(), scratch_.size() * sizeof(float));
     return true;
@@ -154,16 +163,21 @@ bool ConvertingInput::fetch_tile(int x, int y, OIIO::TypeDesc format, std::byte*
         errorfmt("{}", inner_->geterror());
         return false;
     }
-    const auto n_values = static_cast<std::size_t>(m_spec.tile_width) * static_cast<std::size_t>(m_spec.tile_height) * static_cast<std::size_t>(m_spec.nchannels);
+    const auto n_values = static_cast<std::size_t>(m_spec.tile_width) *
+                          static_cast<std::size_t>(m_spec.tile_height) *
+                          static_cast<std::size_t>(m_spec.nchannels);
     std::vector<std::byte> native(n_values * read_format_.size());
-    const bool ok = whole_image_fits() ? fetch_from_whole(x, y, native.data()) : fetch_from_strip(x, y, native.data());
+    const bool ok = whole_image_fits() ? fetch_from_whole(x, y, native.data())
+                                       : fetch_from_strip(x, y, native.data());
     if (!ok) return false;
-    return OIIO::convert_pixel_values(read_format_, native.data(), format, out, static_cast<int>(n_values));
+    return OIIO::convert_pixel_values(read_format_, native.data(), format, out,
+                                      static_cast<int>(n_values));
 }
 
 bool ConvertingInput::whole_image_fits() const {
     if (!whole_.empty()) return true;
-    const auto bytes = static_cast<std::size_t>(m_spec.image_pixels()) * static_cast<std::size_t>(m_spec.nchannels) * read_format_.size();
+    const auto bytes = static_cast<std::size_t>(m_spec.image_pixels()) *
+                       static_cast<std::size_t>(m_spec.nchannels) * read_format_.size();
     return bytes <= kMaxWholeImage && whole_image_bytes + bytes <= kMaxAllWholeImages;
 }
 
@@ -181,8 +195,12 @@ bool ConvertingInput::fetch_from_whole(int x, int y, std::byte* out) {
     const int left = x - m_spec.x, top = y - m_spec.y;
     const int n = std::min(m_spec.tile_width, m_spec.width - left);
     for (int row = 0; row < std::min(m_spec.tile_height, m_spec.height - top); ++row) {
-        const auto from = static_cast<std::size_t>(top + row) * static_cast<std::size_t>(m_spec.width) + static_cast<std::size_t>(left);
-        std::memcpy(out + static_cast<std::size_t>(row) * static_cast<std::size_t>(m_spec.tile_width) * pixel, whole_.data() + from * pixel, static_cast<std::size_t>(n) * pixel);
+        const auto from =
+            static_cast<std::size_t>(top + row) * static_cast<std::size_t>(m_spec.width) +
+            static_cast<std::size_t>(left);
+        std::memcpy(out + static_cast<std::size_t>(row) *
+                              static_cast<std::size_t>(m_spec.tile_width) * pixel,
+                    whole_.data() + from * pixel, static_cast<std::size_t>(n) * pixel);
     }
     return true;
 }
@@ -192,15 +210,18 @@ bool ConvertingInput::fetch_from_strip(int x, int y, std::byte* out) {
     const std::size_t row_bytes = static_cast<std::size_t>(m_spec.width) * pixel;
     const int end = std::min(y + m_spec.tile_height, m_spec.y + m_spec.height);
     std::vector<std::byte> strip(row_bytes * static_cast<std::size_t>(end - y));
-    if (!inner_->read_scanlines(0, miplevel_, y, end, 0, 0, m_spec.nchannels, read_format_, strip.data())) {
+    if (!inner_->read_scanlines(0, miplevel_, y, end, 0, 0, m_spec.nchannels, read_format_,
+                                strip.data())) {
         errorfmt("{}", inner_->geterror());
         return false;
     }
     const auto left = static_cast<std::size_t>(x - m_spec.x);
-    const auto n = static_cast<std::size_t>(std::min(m_spec.tile_width, m_spec.width - (x - m_spec.x)));
+    const auto n =
+        static_cast<std::size_t>(std::min(m_spec.tile_width, m_spec.width - (x - m_spec.x)));
     for (int row = 0; row < end - y; ++row) {
         const auto r = static_cast<std::size_t>(row);
-        std::memcpy(out + r * static_cast<std::size_t>(m_spec.tile_width) * pixel, strip.data() + r * row_bytes + left * pixel, n * pixel);
+        std::memcpy(out + r * static_cast<std::size_t>(m_spec.tile_width) * pixel,
+                    strip.data() + r * row_bytes + left * pixel, n * pixel);
     }
     return true;
 }

@@ -21,15 +21,18 @@ namespace lightsieve {
 struct TexelConversion {
     ColorConversion color;
     int n_channels = 0;
-    int n_color = 0;          ///< 3, or 1 for grey; the first channels
+    int n_color = 0;  ///< 3, or 1 for grey; the first channels
     int alpha_channel = -1;
-    bool divide_alpha = false;    ///< colours are stored multiplied by alpha and are not linear
-    bool multiply_alpha = false;  ///< colours are not multiplied by alpha yet (also after `divide_alpha`)
+    bool divide_alpha = false;  ///< colours are stored multiplied by alpha and are not linear
+    bool multiply_alpha =
+        false;  ///< colours are not multiplied by alpha yet (also after `divide_alpha`)
 
     /// spec  of the file, opened with "oiio:UnassociatedAlpha" so that nothing is multiplied yet
     TexelConversion(const OIIO::ImageSpec& spec, ColorSpace from);
     TexelConversion() = default;
-    [[nodiscard]] bool identity() const { return color.identity() && !divide_alpha && !multiply_alpha; }
+    [[nodiscard]] bool identity() const {
+        return color.identity() && !divide_alpha && !multiply_alpha;
+    }
     /// Converts in place. pixels: n * n_channels.
     void apply(float* pixels, std::size_t n) const;
 };
@@ -48,7 +51,8 @@ class ConvertingInput final : public OIIO::ImageInput {
     ~ConvertingInput() override { close(); }
     [[nodiscard]] const char* format_name() const override { return "lightsieve"; }
     bool open(const std::string& name, OIIO::ImageSpec& spec) override;
-    bool open(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) override;
+    bool open(const std::string& name, OIIO::ImageSpec& spec,
+              const OIIO::ImageSpec& config) override;
     bool close() override;
     [[nodiscard]] int current_subimage() const override { return 0; }
     [[nodiscard]] int current_miplevel() const override { return miplevel_; }
@@ -69,10 +73,10 @@ class ConvertingInput final : public OIIO::ImageInput {
     std::unique_ptr<OIIO::ImageInput> inner_;
     TexelConversion conversion_;
     int miplevel_ = 0;
-    bool tiled_ = false;              ///< the file has tiles of its own
-    OIIO::TypeDesc read_format_;      ///< in which texels are fetched
-    std::vector<std::byte> whole_;    ///< all texels of an untiled file, in read_format_
-    std::vector<float> scratch_;      ///< one tile
+    bool tiled_ = false;            ///< the file has tiles of its own
+    OIIO::TypeDesc read_format_;    ///< in which texels are fetched
+    std::vector<std::byte> whole_;  ///< all texels of an untiled file, in read_format_
+    std::vector<float> scratch_;    ///< one tile
 };
 
 }  // namespace lightsieve

@@ -17,10 +17,13 @@ namespace {
 
 class TextureTest : public FolderTest {
   protected:
-    const Texture* open(const std::string& name, const char* space = "auto") { return cache_.open(in_folder(name), space, diagnostics_, {}); }
+    const Texture* open(const std::string& name, const char* space = "auto") {
+        return cache_.open(in_folder(name), space, diagnostics_, {});
+    }
 
     /// An 8-bit or float picture of `width` by values / width / n_channels.
-    void write(const std::string& name, int width, int n_channels, const std::vector<float>& values, PictureType type = PictureType::UInt8) {
+    void write(const std::string& name, int width, int n_channels,
+               const std::vector<float>& values, PictureType type = PictureType::UInt8) {
         PictureSpec spec;
         spec.width = width;
         spec.height = static_cast<int>(values.size()) / width / n_channels;
@@ -33,14 +36,18 @@ class TextureTest : public FolderTest {
     [[nodiscard]] Rgba texel(const Texture& texture, int x, int y, int w, int h) const {
         TextureSampling sampling;
         sampling.filter = TextureFilter::Closest;
-        return cache_.lookup(texture, {(static_cast<float>(x) + 0.5F) / static_cast<float>(w), 1 - (static_cast<float>(y) + 0.5F) / static_cast<float>(h)}, 0, sampling);
+        return cache_.lookup(texture,
+                             {(static_cast<float>(x) + 0.5F) / static_cast<float>(w),
+                              1 - (static_cast<float>(y) + 0.5F) / static_cast<float>(h)},
+                             0, sampling);
     }
     Diagnostics diagnostics_;
     TextureCache cache_;
 };
 
 void expect_near(const Rgba& a, const Rgba& b, float tolerance) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a.rgb[i], b.rgb[i], tolerance) << i;
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(a.rgb[i], b.rgb[i], tolerance) << i;
     EXPECT_NEAR(a.a, b.a, tolerance);
 }
 
@@ -64,11 +71,17 @@ TEST_F(TextureTest, AutoTakesIntegersForSrgbAndFloatsForTheRenderingSpace) {
     write("a16.tif", 1, 3, values, PictureType::UInt16);
     write("a.tif", 1, 3, values, PictureType::Float);
     const ColorConversion to_rendering(kSrgb, kRenderingSpace);
-    expect_near(texel(*open("a.png"), 0, 0, 1, 1), {to_rendering({51 / 255.0F, 153 / 255.0F, 1}), 1}, 1e-5F);
+    expect_near(texel(*open("a.png"), 0, 0, 1, 1),
+                {to_rendering({51 / 255.0F, 153 / 255.0F, 1}), 1}, 1e-5F);
     expect_near(texel(*open("a16.tif"), 0, 0, 1, 1), {to_rendering({0.2F, 0.6F, 1}), 1}, 2e-5F);
     expect_near(texel(*open("a.tif"), 0, 0, 1, 1), {{0.2F, 0.6F, 1}, 1}, 1e-6F);
-    expect_near(texel(*open("a.tif", "sRGB"), 0, 0, 1, 1), {to_rendering({0.2F, 0.6F, 1}), 1}, 1e-5F);
-    expect_near(texel(*open("a.tif", "lin_rec709"), 0, 0, 1, 1), {ColorConversion({Primaries::Rec709, Transfer::Linear, false}, kRenderingSpace)({0.2F, 0.6F, 1}), 1}, 1e-5F);
+    expect_near(texel(*open("a.tif", "sRGB"), 0, 0, 1, 1), {to_rendering({0.2F, 0.6F, 1}), 1},
+                1e-5F);
+    expect_near(texel(*open("a.tif", "lin_rec709"), 0, 0, 1, 1),
+                {ColorConversion({Primaries::Rec709, Transfer::Linear, false},
+                                 kRenderingSpace)({0.2F, 0.6F, 1}),
+                 1},
+                1e-5F);
 }
 
 TEST_F(TextureTest, OneFileInTwoSpacesIsTwoTextures) {
@@ -100,11 +113,13 @@ TEST_F(TextureTest, GreyAndAlphaChannels) {
     const float alpha = 64 / 255.0F;
     const Color c = ColorConversion(kSrgb, kRenderingSpace)({1, 128 / 255.0F, 0});
     expect_near(texel(*open("rgba.png"), 0, 0, 1, 1), {c * alpha, alpha}, 1e-5F);
-    expect_near(texel(*open("rgba.png", ""), 0, 0, 1, 1), {Color(1, 128 / 255.0F, 0) * alpha, alpha}, 1e-5F);
+    expect_near(texel(*open("rgba.png", ""), 0, 0, 1, 1),
+                {Color(1, 128 / 255.0F, 0) * alpha, alpha}, 1e-5F);
     EXPECT_TRUE(TextureCache::info(*open("rgba.png")).has_alpha);
     // TIFF stores multiplied colours: they are divided before the curve and multiplied again.
     write("rgba.tif", 1, 4, {alpha, alpha * 0.5F, 0, alpha}, PictureType::Float);
-    expect_near(texel(*open("rgba.tif", "sRGB"), 0, 0, 1, 1), {ColorConversion(kSrgb, kRenderingSpace)({1, 0.5F, 0}) * alpha, alpha}, 1e-5F);
+    expect_near(texel(*open("rgba.tif", "sRGB"), 0, 0, 1, 1),
+                {ColorConversion(kSrgb, kRenderingSpace)({1, 0.5F, 0}) * alpha, alpha}, 1e-5F);
 }
 
 TEST_F(TextureTest, ChannelsMayBeChosen) {
@@ -177,7 +192,8 @@ TEST_F(TextureTest, MagnificationIsACubicBSpline) {
 TEST_F(TextureTest, LargeFootprintsAverage) {
     std::vector<float> values;
     for (int y = 0; y < 64; ++y) {
-        for (int x = 0; x < 64; ++x) values.push_back((x + y) % 2 == 0 ? 1.0F : 0.0F);
+        for (int x = 0; x < 64; ++x)
+            values.push_back((x + y) % 2 == 0 ? 1.0F : 0.0F);
     }
     write("a.png", 64, 1, values);
     const Texture& t = *open("a.png", "");
@@ -196,8 +212,13 @@ void write_mipmapped(const std::string& path, OIIO::TypeDesc type) {
         spec.tile_depth = 1;
         spec.attribute("textureformat", "Plain Texture");
         spec.attribute("oiio:SHA-1", "0123456789012345678901234567890123456789");
-        ASSERT_TRUE(output->open(path, spec, level == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage)) << output->geterror();
-        const std::vector<float> pixels(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 3, 0.2F * static_cast<float>(level + 1));
+        ASSERT_TRUE(output->open(
+            path, spec,
+            level == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage))
+            << output->geterror();
+        const std::vector<float> pixels(
+            static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 3,
+            0.2F * static_cast<float>(level + 1));
         ASSERT_TRUE(output->write_image(OIIO::TypeFloat, pixels.data()));
     }
     ASSERT_TRUE(output->close());
@@ -211,7 +232,8 @@ TEST_F(TextureTest, MipLevelsOfTheFileAreUsedAndConverted) {
     EXPECT_NEAR(cache_.lookup(*raw, {0.3F, 0.3F}, 0, {}).rgb.r, 0.2F, 1e-6F);
     EXPECT_NEAR(cache_.lookup(*raw, {0.3F, 0.3F}, 1 / 32.0F, {}).rgb.r, 0.4F, 1e-6F);
     EXPECT_NEAR(cache_.lookup(*raw, {0.3F, 0.3F}, 2, {}).rgb.r, 0.6F, 1e-6F);
-    EXPECT_NEAR(cache_.lookup(*srgb, {0.3F, 0.3F}, 2, {}).rgb.r, decode(Transfer::Srgb, 0.6F), 1e-5F);
+    EXPECT_NEAR(cache_.lookup(*srgb, {0.3F, 0.3F}, 2, {}).rgb.r, decode(Transfer::Srgb, 0.6F),
+                1e-5F);
 }
 
 TEST_F(TextureTest, ManyTilesAndAStrip) {
@@ -219,14 +241,18 @@ TEST_F(TextureTest, ManyTilesAndAStrip) {
     const int w = 150, h = 133;
     std::vector<float> values;
     for (int y = 0; y < h; ++y) {
-        for (int x = 0; x < w; ++x) values.insert(values.end(), {static_cast<float>(x), static_cast<float>(y), 0.5F});
+        for (int x = 0; x < w; ++x)
+            values.insert(values.end(), {static_cast<float>(x), static_cast<float>(y), 0.5F});
     }
     write("a.tif", w, 3, values, PictureType::Float);
     const Texture& t = *open("a.tif");
     for (int y = 0; y < h; y += 11) {
-        for (int x = 0; x < w; x += 7) expect_near(texel(t, x, y, w, h), {{static_cast<float>(x), static_cast<float>(y), 0.5F}, 1}, 1e-4F);
+        for (int x = 0; x < w; x += 7)
+            expect_near(texel(t, x, y, w, h),
+                        {{static_cast<float>(x), static_cast<float>(y), 0.5F}, 1}, 1e-4F);
     }
-    expect_near(texel(t, w - 1, h - 1, w, h), {{static_cast<float>(w - 1), static_cast<float>(h - 1), 0.5F}, 1}, 1e-4F);
+    expect_near(texel(t, w - 1, h - 1, w, h),
+                {{static_cast<float>(w - 1), static_cast<float>(h - 1), 0.5F}, 1}, 1e-4F);
 }
 
 TEST_F(TextureTest, ExrTexturesMayBeTiledHalfAndMixed) {
@@ -234,11 +260,16 @@ TEST_F(TextureTest, ExrTexturesMayBeTiledHalfAndMixed) {
     spec.width = spec.data_width = 40;
     spec.height = spec.data_height = 40;
     spec.tile_size = 16;
-    spec.parts = {{"", {{"R", ExrPixelType::Half}, {"G", ExrPixelType::Float}, {"B", ExrPixelType::Half}}}};
+    spec.parts = {
+        {"", {{"R", ExrPixelType::Half}, {"G", ExrPixelType::Float}, {"B", ExrPixelType::Half}}}};
     std::vector<float> pixels;
-    for (int i = 0; i < 1600; ++i) pixels.insert(pixels.end(), {static_cast<float>(i % 40), static_cast<float>(i / 40), 0.5F});
+    for (int i = 0; i < 1600; ++i)
+        pixels.insert(pixels.end(),
+                      {static_cast<float>(i % 40), static_cast<float>(i / 40), 0.5F});
     ExrWriter writer(in_folder("a.exr"), spec);
-    writer.write(0, 0, 40, 40, std::vector<ExrPlane>{{&pixels[0], 3, 120}, {&pixels[1], 3, 120}, {&pixels[2], 3, 120}});
+    writer.write(
+        0, 0, 40, 40,
+        std::vector<ExrPlane>{{&pixels[0], 3, 120}, {&pixels[1], 3, 120}, {&pixels[2], 3, 120}});
     writer.close();
     const Texture* t = open("a.exr");
     ASSERT_NE(t, nullptr) << diagnostics_.render();
@@ -257,9 +288,12 @@ TEST_F(TextureTest, NamesAreNoPatterns) {
 TEST_F(TextureTest, BadFilesAreReportedWhenOpened) {
     EXPECT_EQ(open("none.png"), nullptr);
     std::vector<float> noise;
-    for (int i = 0; i < 200 * 200; ++i) noise.push_back(static_cast<float>((i * 7919) % 251) / 251);
+    for (int i = 0; i < 200 * 200; ++i)
+        noise.push_back(static_cast<float>((i * 7919) % 251) / 251);
     write("good.png", 200, 1, noise);
-    write_bytes(in_folder("cut.png"), bytes_of(in_folder("good.png")).substr(0, bytes_of(in_folder("good.png")).size() / 2));
+    write_bytes(
+        in_folder("cut.png"),
+        bytes_of(in_folder("good.png")).substr(0, bytes_of(in_folder("good.png")).size() / 2));
     EXPECT_EQ(open("cut.png"), nullptr);
     write_bytes(in_folder("text.tx"), "no picture");
     EXPECT_EQ(open("text.tx"), nullptr);
@@ -267,7 +301,8 @@ TEST_F(TextureTest, BadFilesAreReportedWhenOpened) {
     EXPECT_EQ(diagnostics_.items()[0].code, Code::FileNotFound);
     EXPECT_EQ(diagnostics_.items()[1].code, Code::FileFormat);
     EXPECT_EQ(diagnostics_.items()[2].code, Code::FileFormat);
-    for (const Error& e : diagnostics_.items()) EXPECT_FALSE(e.hint.empty());
+    for (const Error& e : diagnostics_.items())
+        EXPECT_FALSE(e.hint.empty());
 }
 
 TEST_F(TextureTest, FilesThatVanishWhileRenderingAreReportedAtTheEnd) {
@@ -280,7 +315,8 @@ TEST_F(TextureTest, FilesThatVanishWhileRenderingAreReportedAtTheEnd) {
     // Everything but the header is gone; the tile that was read on opening is still in memory.
     std::filesystem::resize_file(in_folder("a.tx"), 200);
     bool black = false;
-    for (int i = 0; i < 16; ++i) black = black || is_black(texel(*t, i * 4, i * 3, 64, 64).rgb);
+    for (int i = 0; i < 16; ++i)
+        black = black || is_black(texel(*t, i * 4, i * 3, 64, 64).rgb);
     EXPECT_TRUE(black);
     Diagnostics after;
     cache_.report_failures(after);
@@ -298,12 +334,18 @@ TEST_F(TextureTest, UnknownSpacesWarn) {
 
 TEST_F(TextureTest, ThreadsSeeTheSameTexels) {
     std::vector<float> values;
-    for (int i = 0; i < 300 * 300; ++i) values.push_back(static_cast<float>(i % 251) / 251);
+    for (int i = 0; i < 300 * 300; ++i)
+        values.push_back(static_cast<float>(i % 251) / 251);
     write("a.png", 300, 1, values);
     const Texture& t = *open("a.png");
     const auto sum = [&] {
         double total = 0;
-        for (int i = 0; i < 4000; ++i) total += static_cast<double>(cache_.lookup(t, {static_cast<float>(i) * 0.37F, static_cast<float>(i) * 0.11F}, 0.001F * static_cast<float>(i % 40), {}).rgb.r);
+        for (int i = 0; i < 4000; ++i)
+            total += static_cast<double>(
+                cache_
+                    .lookup(t, {static_cast<float>(i) * 0.37F, static_cast<float>(i) * 0.11F},
+                            0.001F * static_cast<float>(i % 40), {})
+                    .rgb.r);
         return total;
     };
     const double expected = sum();

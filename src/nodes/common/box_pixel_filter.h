@@ -13,9 +13,15 @@ class BoxPixelFilter final : public PixelFilter {
     /// closest  keep the nearest sample instead of a mean
     BoxPixelFilter(float radius, bool closest) : radius_(radius), closest_(closest) {}
     [[nodiscard]] float radius() const override { return radius_; }
-    [[nodiscard]] float eval(Vec2f offset) const override { return std::abs(offset.x) <= radius_ && std::abs(offset.y) <= radius_ ? 1.0F : 0.0F; }
-    [[nodiscard]] Sample sample(Vec2f u) const override { return {{(2 * u.x - 1) * radius_, (2 * u.y - 1) * radius_}, 1}; }
-    [[nodiscard]] float pdf(Vec2f offset) const override { return eval(offset) / (4 * radius_ * radius_); }
+    [[nodiscard]] float eval(Vec2f offset) const override {
+        return std::abs(offset.x) <= radius_ && std::abs(offset.y) <= radius_ ? 1.0F : 0.0F;
+    }
+    [[nodiscard]] Sample sample(Vec2f u) const override {
+        return {{(2 * u.x - 1) * radius_, (2 * u.y - 1) * radius_}, 1};
+    }
+    [[nodiscard]] float pdf(Vec2f offset) const override {
+        return eval(offset) / (4 * radius_ * radius_);
+    }
     [[nodiscard]] bool closest() const override { return closest_; }
 
   private:

@@ -12,26 +12,42 @@ namespace {
 constexpr int kTileSize = 64;
 
 /// 8-bit pictures are for display; others keep the rendering space.
-ColorSpace automatic_space(const PictureOptions& options) { return options.type == PictureType::UInt8 ? kSrgb : kRenderingSpace; }
+ColorSpace automatic_space(const PictureOptions& options) {
+    return options.type == PictureType::UInt8 ? kSrgb : kRenderingSpace;
+}
 
-bool is_integer(const ImageLayer& layer) { return layer.aov_type == "UINT" || layer.aov_type == "INT"; }
+bool is_integer(const ImageLayer& layer) {
+    return layer.aov_type == "UINT" || layer.aov_type == "INT";
+}
 
 }  // namespace
 
-PictureDriver::PictureDriver(Name filename, Name color_space, const PictureOptions& options, NodeContext& context)
-    : path_(filename.str()), where_(context.where("filename")), options_(options),
-      conversion_(kRenderingSpace, resolve_color_space(color_space.view(), automatic_space(options), context.diagnostics(), context.where("color_space"))) {}
+PictureDriver::PictureDriver(Name filename, Name color_space, const PictureOptions& options,
+                             NodeContext& context)
+    : path_(filename.str()),
+      where_(context.where("filename")),
+      options_(options),
+      conversion_(kRenderingSpace,
+                  resolve_color_space(color_space.view(), automatic_space(options),
+                                      context.diagnostics(), context.where("color_space"))) {}
 
 bool PictureDriver::fits(const ImageHeader& header, Diagnostics& diagnostics) const {
     if (header.layers.size() != 1) {
         std::string names;
-        for (const ImageLayer& layer : header.layers) names += (names.empty() ? "\"" : ", \"") + layer.name + "\"";
-        diagnostics.error(Code::OutputLayers, "\"" + path_ + "\" can hold one layer, not " + std::to_string(header.layers.size()) + (names.empty() ? "" : ": " + names), where_,
-                          "use driver_exr, or a driver for each output");
+        for (const ImageLayer& layer : header.layers)
+            names += (names.empty() ? "\"" : ", \"") + layer.name + "\"";
+        diagnostics.error(Code::OutputLayers,
+                          "\"" + path_ + "\" can hold one layer, not " +
+                              std::to_string(header.layers.size()) +
+                              (names.empty() ? "" : ": " + names),
+                          where_, "use driver_exr, or a driver for each output");
         return false;
     }
     if (is_integer(header.layers[0])) {
-        diagnostics.error(Code::OutputLayers, "\"" + path_ + "\" cannot hold the numbers of layer \"" + header.layers[0].name + "\" of type " + header.layers[0].aov_type, where_, "use driver_exr");
+        diagnostics.error(Code::OutputLayers,
+                          "\"" + path_ + "\" cannot hold the numbers of layer \"" +
+                              header.layers[0].name + "\" of type " + header.layers[0].aov_type,
+                          where_, "use driver_exr");
         return false;
     }
     return true;
@@ -46,7 +62,8 @@ bool PictureDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
     spec_.width = padded ? header.width : header.data_width;
     spec_.height = padded ? header.height : header.data_height;
     // Two channels (VECTOR2) become three: in these formats two would be grey and alpha.
-    const std::size_t n_stored = options_.skip_alpha ? std::min<std::size_t>(layer_.n_channels, 3) : layer_.n_channels;
+    const std::size_t n_stored =
+        options_.skip_alpha ? std::min<std::size_t>(layer_.n_channels, 3) : layer_.n_channels;
     spec_.n_channels = n_stored == 2 ? 3 : static_cast<int>(n_stored);
     spec_.format = options_.format;
     spec_.type = options_.type;
@@ -55,10 +72,13 @@ bool PictureDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
     spec_.dither = options_.dither && layer_.is_color;
     spec_.unassociated_alpha = options_.unpremult_alpha && options_.type == PictureType::UInt8;
     spec_.pixel_aspect_ratio = header.pixel_aspect_ratio;
-    if (const auto it = header.metadata.find("lightsieve/version"); it != header.metadata.end() && std::holds_alternative<std::string>(it->second)) {
+    if (const auto it = header.metadata.find("lightsieve/version");
+        it != header.metadata.end() && std::holds_alternative<std::string>(it->second)) {
         spec_.metadata["Software"] = "Lightsieve " + std::get<std::string>(it->second);
     }
-    pixels_.assign(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(spec_.height) * static_cast<std::size_t>(spec_.n_channels), 0.0F);
+    pixels_.assign(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(spec_.height) *
+                       static_cast<std::size_t>(spec_.n_channels),
+                   0.0F);
     try {
         const AtomicFile writable(path_);  // found out before the first ray; removed at once
     } catch (const InputError& e) {
@@ -80,7 +100,8 @@ void PictureDriver::store(const float* pixel, float* out) const {
     // Conversion acts on what is stored: multiplied colours, unless they are divided first.
     if (spec_.unassociated_alpha && n == 4 && pixel[3] > 0) c = c * (1 / pixel[3]);
     c = conversion_(c);
-    for (int k = 0; k < 3; ++k) out[k] = c[k];
+    for (int k = 0; k < 3; ++k)
+        out[k] = c[k];
 }
 
 void PictureDriver::write(const Bucket& bucket) {
@@ -89,9 +110,14 @@ void PictureDriver::write(const Bucket& bucket) {
         for (int x = 0; x < bucket.width; ++x) {
             const int to_x = bucket.x + x - left_, to_y = bucket.y + y - top_;
             if (to_x < 0 || to_y < 0 || to_x >= spec_.width || to_y >= spec_.height) continue;
-            const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(bucket.width) + static_cast<std::size_t>(x);
-            const std::size_t to = static_cast<std::size_t>(to_y) * static_cast<std::size_t>(spec_.width) + static_cast<std::size_t>(to_x);
-            store(bucket.layers[0].data() + from * n, pixels_.data() + to * static_cast<std::size_t>(spec_.n_channels));
+            const std::size_t from =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(bucket.width) +
+                static_cast<std::size_t>(x);
+            const std::size_t to =
+                static_cast<std::size_t>(to_y) * static_cast<std::size_t>(spec_.width) +
+                static_cast<std::size_t>(to_x);
+            store(bucket.layers[0].data() + from * n,
+                  pixels_.data() + to * static_cast<std::size_t>(spec_.n_channels));
         }
     }
 }

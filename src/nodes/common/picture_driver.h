@@ -20,15 +20,17 @@ struct PictureOptions {
     PictureType type = PictureType::UInt8;
     TiffCompression compression = TiffCompression::Lzw;
     bool tiled = false, dither = true;
-    bool unpremult_alpha = false;  ///< divide colours by alpha; acts on 8-bit pictures only, as in Arnold
+    bool unpremult_alpha =
+        false;  ///< divide colours by alpha; acts on 8-bit pictures only, as in Arnold
     bool skip_alpha = false;
-    bool output_padded = false;    ///< the whole frame, black around the region that was rendered
+    bool output_padded = false;  ///< the whole frame, black around the region that was rendered
 };
 
 class PictureDriver final : public Driver {
   public:
     /// filename, color_space  parameters of the node, which `context` knows the places of
-    PictureDriver(Name filename, Name color_space, const PictureOptions& options, NodeContext& context);
+    PictureDriver(Name filename, Name color_space, const PictureOptions& options,
+                  NodeContext& context);
 
     [[nodiscard]] std::string path() const override { return path_; }
     [[nodiscard]] bool open(const ImageHeader& header, Diagnostics& diagnostics) override;

@@ -32,13 +32,15 @@ double quadrature(const F& f, double a, double b) {
     constexpr std::array<double, 2> kWeight = {0.652145154862546, 0.347854845137454};
     const double centre = 0.5 * (a + b), half = 0.5 * (b - a);
     double sum = 0;
-    for (std::size_t i = 0; i < 2; ++i) sum += kWeight[i] * (f(centre - half * kNode[i]) + f(centre + half * kNode[i]));
+    for (std::size_t i = 0; i < 2; ++i)
+        sum += kWeight[i] * (f(centre - half * kNode[i]) + f(centre + half * kNode[i]));
     return sum * half;
 }
 
 }  // namespace
 
-SeparableFilter::SeparableFilter(float radius, std::function<double(double)> profile) : radius_(radius), profile_(std::move(profile)) {
+SeparableFilter::SeparableFilter(float radius, std::function<double(double)> profile)
+    : radius_(radius), profile_(std::move(profile)) {
     const double r = double{radius_};
     for (int i = 0; i <= kCells; ++i) {
         const double edge = r * i / kCells;
@@ -65,11 +67,14 @@ double SeparableFilter::profile_at(float x) const {
     return a <= radius_ ? profile_(double{a}) : 0;
 }
 
-float SeparableFilter::eval(Vec2f offset) const { return static_cast<float>(profile_at(offset.x) * profile_at(offset.y)); }
+float SeparableFilter::eval(Vec2f offset) const {
+    return static_cast<float>(profile_at(offset.x) * profile_at(offset.y));
+}
 
 float SeparableFilter::pdf(Vec2f offset) const {
     const double whole = 2 * cumulative_.back();
-    return static_cast<float>(std::abs(profile_at(offset.x) * profile_at(offset.y)) / (whole * whole));
+    return static_cast<float>(std::abs(profile_at(offset.x) * profile_at(offset.y)) /
+                              (whole * whole));
 }
 
 double SeparableFilter::magnitude(double a, double b) const {
@@ -82,7 +87,8 @@ double SeparableFilter::invert(float u) const {
     const double target = std::abs(signed_u) * cumulative_.back();
     const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, target);
     const auto cell = static_cast<std::size_t>(above - cumulative_.begin()) - 1;
-    const double within = target - cumulative_[cell], mass = cumulative_[cell + 1] - cumulative_[cell];
+    const double within = target - cumulative_[cell],
+                 mass = cumulative_[cell + 1] - cumulative_[cell];
     const double start = edges_[cell];
     double low = start, high = edges_[cell + 1];
     double x = mass > 0 ? low + (high - low) * within / mass : low;

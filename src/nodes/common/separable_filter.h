@@ -35,7 +35,7 @@ class SeparableFilter final : public PixelFilter {
     std::function<double(double)> profile_;
     std::vector<double> edges_;       ///< ends of the cells, from 0 to radius
     std::vector<double> cumulative_;  ///< integral of |f| from 0 to each edge
-    double scale_ = 1;                ///< (integral of |f| / integral of f) squared: the weight's magnitude
+    double scale_ = 1;  ///< (integral of |f| / integral of f) squared: the weight's magnitude
 };
 
 }  // namespace lightsieve

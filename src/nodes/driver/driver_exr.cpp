@@ -18,7 +18,8 @@ enum class Compression : std::int32_t { None, Rle, Zip, Zips, Piz, Pxr24, B44, B
 struct DriverExr {
     Name filename;
     Compression compression = Compression::Zip;
-    bool half_precision = false, tiled = true, preserve_layer_name = false, autocrop = false, append = false, multipart = false;
+    bool half_precision = false, tiled = true, preserve_layer_name = false, autocrop = false,
+         append = false, multipart = false;
     Name color_space = "auto";
     Array<Name> custom_attributes;
 
@@ -28,37 +29,53 @@ struct DriverExr {
 
 NodeType DriverExr::describe() {
     Describe<DriverExr> d("driver_exr", NodeKind::Driver, "Writes layers into an OpenEXR file.");
-    d.param("filename", &DriverExr::filename, "The file; relative names are relative to where the command is run, or to -o.");
-    d.param("compression", &DriverExr::compression, "How pixels are packed; pxr24 (floats), b44, b44a, dwaa and dwab lose precision.")
+    d.param("filename", &DriverExr::filename,
+            "The file; relative names are relative to where the command is run, or to -o.");
+    d.param("compression", &DriverExr::compression,
+            "How pixels are packed; pxr24 (floats), b44, b44a, dwaa and dwab lose precision.")
         .names({"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"});
-    d.param("half_precision", &DriverExr::half_precision, "Stores 16-bit instead of 32-bit floats.");
-    d.param("tiled", &DriverExr::tiled, "Tiles, written as they are rendered, instead of scanlines.");
-    d.param("preserve_layer_name", &DriverExr::preserve_layer_name, "Keeps the layer's name in the channels of a file with one layer.");
-    d.param("autocrop", &DriverExr::autocrop, "Cuts the file's data window to what is not empty.").pending();
+    d.param("half_precision", &DriverExr::half_precision,
+            "Stores 16-bit instead of 32-bit floats.");
+    d.param("tiled", &DriverExr::tiled,
+            "Tiles, written as they are rendered, instead of scanlines.");
+    d.param("preserve_layer_name", &DriverExr::preserve_layer_name,
+            "Keeps the layer's name in the channels of a file with one layer.");
+    d.param("autocrop", &DriverExr::autocrop, "Cuts the file's data window to what is not empty.")
+        .pending();
     d.param("append", &DriverExr::append, "Goes on with a file that was begun.").pending();
     d.param("multipart", &DriverExr::multipart, "A part of its own for each layer.");
-    d.param("color_space", &DriverExr::color_space, "What the file's colours are converted to; auto and empty: nothing, they stay ACEScg.");
-    d.param("custom_attributes", &DriverExr::custom_attributes, "Additional header attributes, each \"TYPE name value\" with TYPE one of INT, FLOAT, STRING, VECTOR2, VECTOR, MATRIX.");
+    d.param(
+        "color_space", &DriverExr::color_space,
+        "What the file's colours are converted to; auto and empty: nothing, they stay ACEScg.");
+    d.param("custom_attributes", &DriverExr::custom_attributes,
+            "Additional header attributes, each \"TYPE name value\" with TYPE one of INT, FLOAT, "
+            "STRING, VECTOR2, VECTOR, MATRIX.");
     return d.done();
 }
 
-bool is_uint(const ImageLayer& layer) { return layer.aov_type == "UINT" || layer.aov_type == "INT"; }
+bool is_uint(const ImageLayer& layer) {
+    return layer.aov_type == "UINT" || layer.aov_type == "INT";
+}
 
 /// ".R", ".G", ...; one empty suffix for layers that are one channel.
 std::vector<std::string> suffixes(const ImageLayer& layer) {
     const std::string letters = layer.aov_type.starts_with("VECTOR") ? "XYZ" : "RGBA";
     if (layer.n_channels == 1) return {""};
     std::vector<std::string> out;
-    for (std::size_t c = 0; c < layer.n_channels; ++c) out.push_back(std::string(".") + letters[c]);
+    for (std::size_t c = 0; c < layer.n_channels; ++c)
+        out.push_back(std::string(".") + letters[c]);
     return out;
 }
 
 /// The full channel names of a layer. The beauty, and a colour layer that is alone, have bare R, G, B, A.
-std::vector<std::string> channel_names(const ImageLayer& layer, bool alone, bool preserve_layer_name) {
+std::vector<std::string> channel_names(const ImageLayer& layer, bool alone,
+                                       bool preserve_layer_name) {
     const bool is_rgb = layer.aov_type == "RGB" || layer.aov_type == "RGBA";
-    const bool bare = is_rgb && (layer.name == "RGBA" || layer.name == "RGB" || (alone && !preserve_layer_name));
+    const bool bare =
+        is_rgb && (layer.name == "RGBA" || layer.name == "RGB" || (alone && !preserve_layer_name));
     std::vector<std::string> names;
-    for (const std::string& suffix : suffixes(layer)) names.push_back(bare ? suffix.substr(1) : layer.name + suffix);
+    for (const std::string& suffix : suffixes(layer))
+        names.push_back(bare ? suffix.substr(1) : layer.name + suffix);
     return names;
 }
 
@@ -77,7 +94,8 @@ void describe_layer(const ImageLayer& layer, std::map<std::string, ExrAttribute>
 /// Numbers separated by blanks; empty if there is anything else or not `n` of them.
 std::vector<float> read_floats(std::istream& in, std::size_t n) {
     std::vector<float> values;
-    for (float v = 0; in >> v;) values.push_back(v);
+    for (float v = 0; in >> v;)
+        values.push_back(v);
     return in.eof() && values.size() == n ? values : std::vector<float>{};
 }
 
@@ -99,7 +117,11 @@ bool read_attribute(const std::string& text, std::map<std::string, ExrAttribute>
         attributes[name] = value;
         return true;
     }
-    const std::size_t n = type == "FLOAT" ? 1 : type == "VECTOR2" ? 2 : type == "VECTOR" ? 3 : type == "MATRIX" ? 16 : 0;
+    const std::size_t n = type == "FLOAT"     ? 1
+                          : type == "VECTOR2" ? 2
+                          : type == "VECTOR"  ? 3
+                          : type == "MATRIX"  ? 16
+                                              : 0;
     const std::vector<float> values = n > 0 ? read_floats(in, n) : std::vector<float>{};
     if (values.empty()) return false;
     attributes[name] = n == 1 ? ExrAttribute(values[0]) : ExrAttribute(values);
@@ -109,12 +131,20 @@ bool read_attribute(const std::string& text, std::map<std::string, ExrAttribute>
 class ExrDriver final : public Driver {
   public:
     ExrDriver(const DriverExr& node, NodeContext& context)
-        : node_(node), path_(node.filename.str()), where_(context.where("filename")), space_(resolve_color_space(node.color_space.view(), kRenderingSpace, context.diagnostics(), context.where("color_space"))),
+        : node_(node),
+          path_(node.filename.str()),
+          where_(context.where("filename")),
+          space_(resolve_color_space(node.color_space.view(), kRenderingSpace,
+                                     context.diagnostics(), context.where("color_space"))),
           conversion_(kRenderingSpace, space_) {
         for (const Name& attribute : node.custom_attributes.first_key()) {
             if (read_attribute(attribute.str(), attributes_)) continue;
-            context.diagnostics().warning(Code::InvalidValue, "the attribute \"" + attribute.str() + "\" cannot be read and is left out", context.where("custom_attributes"),
-                                          "write \"TYPE name value\" with TYPE one of INT, FLOAT, STRING, VECTOR2, VECTOR, MATRIX");
+            context.diagnostics().warning(
+                Code::InvalidValue,
+                "the attribute \"" + attribute.str() + "\" cannot be read and is left out",
+                context.where("custom_attributes"),
+                "write \"TYPE name value\" with TYPE one of INT, FLOAT, STRING, VECTOR2, VECTOR, "
+                "MATRIX");
         }
     }
 
@@ -125,9 +155,12 @@ class ExrDriver final : public Driver {
 
   private:
     [[nodiscard]] ExrWriteSpec make_spec(const ImageHeader& header) const;
-    [[nodiscard]] bool names_are_distinct(const ImageHeader& header, Diagnostics& diagnostics) const;
+    [[nodiscard]] bool names_are_distinct(const ImageHeader& header,
+                                          Diagnostics& diagnostics) const;
     /// The layer's pixels as they are to be stored; points into `converted_` if they had to be converted.
-    [[nodiscard]] const float* stored_pixels(const ImageLayer& layer, std::span<const float> pixels, std::vector<float>& converted) const;
+    [[nodiscard]] const float* stored_pixels(const ImageLayer& layer,
+                                             std::span<const float> pixels,
+                                             std::vector<float>& converted) const;
     bool report(const InputError& error, Diagnostics& diagnostics) const;
 
     DriverExr node_;
@@ -139,7 +172,7 @@ class ExrDriver final : public Driver {
     std::vector<ImageLayer> layers_;
     std::vector<std::vector<float>> converted_;  ///< one a layer, kept for its memory
     std::unique_ptr<ExrWriter> writer_;
-    std::unique_ptr<InputError> failure_;        ///< of a write; reported when the file is closed
+    std::unique_ptr<InputError> failure_;  ///< of a write; reported when the file is closed
 };
 
 ExrWriteSpec ExrDriver::make_spec(const ImageHeader& header) const {
@@ -154,16 +187,22 @@ ExrWriteSpec ExrDriver::make_spec(const ImageHeader& header) const {
     spec.data_height = header.data_height;
     spec.pixel_aspect_ratio = header.pixel_aspect_ratio;
     spec.tiled = node_.tiled;
-    spec.tile_size = header.bucket_size >= kMinTile && header.bucket_size <= kMaxTile ? header.bucket_size : kDefaultTile;
+    spec.tile_size = header.bucket_size >= kMinTile && header.bucket_size <= kMaxTile
+                         ? header.bucket_size
+                         : kDefaultTile;
     spec.compression = static_cast<ExrCompression>(node_.compression);
     spec.primaries = space_.primaries;
     spec.attributes = attributes_;
     spec.attributes.insert(header.metadata.begin(), header.metadata.end());
     for (const ImageLayer& layer : header.layers) {
         const bool half = node_.half_precision || layer.half;
-        const ExrPixelType type = is_uint(layer) ? ExrPixelType::UInt : half ? ExrPixelType::Half : ExrPixelType::Float;
+        const ExrPixelType type = is_uint(layer) ? ExrPixelType::UInt
+                                  : half         ? ExrPixelType::Half
+                                                 : ExrPixelType::Float;
         if (spec.parts.empty() || node_.multipart) spec.parts.push_back({layer.name, {}});
-        for (std::string& name : channel_names(layer, header.layers.size() == 1, node_.preserve_layer_name)) spec.parts.back().channels.push_back({std::move(name), type});
+        for (std::string& name :
+             channel_names(layer, header.layers.size() == 1, node_.preserve_layer_name))
+            spec.parts.back().channels.push_back({std::move(name), type});
         describe_layer(layer, spec.attributes);
     }
     return spec;
@@ -172,11 +211,14 @@ ExrWriteSpec ExrDriver::make_spec(const ImageHeader& header) const {
 bool ExrDriver::names_are_distinct(const ImageHeader& header, Diagnostics& diagnostics) const {
     std::map<std::string, std::string> owner;
     for (const ImageLayer& layer : header.layers) {
-        for (const std::string& name : channel_names(layer, header.layers.size() == 1, node_.preserve_layer_name)) {
+        for (const std::string& name :
+             channel_names(layer, header.layers.size() == 1, node_.preserve_layer_name)) {
             const auto [it, added] = owner.emplace(name, layer.name);
             if (added) continue;
-            diagnostics.error(Code::OutputLayers, "layers \"" + it->second + "\" and \"" + layer.name + "\" of \"" + path_ + "\" both have the channel \"" + name + "\"", where_,
-                              "give one of the outputs a layer name, or remove it");
+            diagnostics.error(Code::OutputLayers,
+                              "layers \"" + it->second + "\" and \"" + layer.name + "\" of \"" +
+                                  path_ + "\" both have the channel \"" + name + "\"",
+                              where_, "give one of the outputs a layer name, or remove it");
             return false;
         }
     }
@@ -195,7 +237,8 @@ bool ExrDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
     return true;
 }
 
-const float* ExrDriver::stored_pixels(const ImageLayer& layer, std::span<const float> pixels, std::vector<float>& converted) const {
+const float* ExrDriver::stored_pixels(const ImageLayer& layer, std::span<const float> pixels,
+                                      std::vector<float>& converted) const {
     if (conversion_.identity() || !layer.is_color || is_uint(layer)) return pixels.data();
     converted.assign(pixels.begin(), pixels.end());
     const std::size_t n = layer.n_channels;
@@ -205,7 +248,8 @@ const float* ExrDriver::stored_pixels(const ImageLayer& layer, std::span<const f
             continue;
         }
         const Color c = conversion_({converted[i], converted[i + 1], converted[i + 2]});
-        for (int k = 0; k < 3; ++k) converted[i + static_cast<std::size_t>(k)] = c[k];
+        for (int k = 0; k < 3; ++k)
+            converted[i + static_cast<std::size_t>(k)] = c[k];
     }
     return converted.data();
 }
@@ -216,7 +260,8 @@ void ExrDriver::write(const Bucket& bucket) {
     for (std::size_t l = 0; l < layers_.size(); ++l) {
         const auto n = static_cast<std::ptrdiff_t>(layers_[l].n_channels);
         const float* pixels = stored_pixels(layers_[l], bucket.layers[l], converted_[l]);
-        for (std::ptrdiff_t c = 0; c < n; ++c) planes.push_back({pixels + c, n, n * bucket.width});
+        for (std::ptrdiff_t c = 0; c < n; ++c)
+            planes.push_back({pixels + c, n, n * bucket.width});
     }
     try {
         writer_->write(bucket.x, bucket.y, bucket.width, bucket.height, planes);
@@ -247,7 +292,9 @@ bool ExrDriver::report(const InputError& error, Diagnostics& diagnostics) const 
     return false;
 }
 
-std::unique_ptr<Driver> DriverExr::make_driver(NodeContext& context) const { return std::make_unique<ExrDriver>(*this, context); }
+std::unique_ptr<Driver> DriverExr::make_driver(NodeContext& context) const {
+    return std::make_unique<ExrDriver>(*this, context);
+}
 
 }  // namespace
 

@@ -19,12 +19,18 @@ struct DriverPng {
 
 NodeType DriverPng::describe() {
     Describe<DriverPng> d("driver_png", NodeKind::Driver, "Writes one layer as a PNG picture.");
-    d.param("filename", &DriverPng::filename, "The file; relative names are relative to where the command is run, or to -o.");
-    d.param("color_space", &DriverPng::color_space, "What colours are converted to; auto: sRGB for int8, ACEScg for int16; empty: nothing.");
+    d.param("filename", &DriverPng::filename,
+            "The file; relative names are relative to where the command is run, or to -o.");
+    d.param(
+        "color_space", &DriverPng::color_space,
+        "What colours are converted to; auto: sRGB for int8, ACEScg for int16; empty: nothing.");
     d.param("format", &DriverPng::format, "Bits a channel.").names({"int8", "int16"});
-    d.param("dither", &DriverPng::dither, "Adds noise of one step before rounding to int8, against banding.");
-    d.param("output_padded", &DriverPng::output_padded, "The whole frame, black around the region; off: the region only.");
-    d.param("unpremult_alpha", &DriverPng::unpremult_alpha, "Divides colours by alpha; int8 only.");
+    d.param("dither", &DriverPng::dither,
+            "Adds noise of one step before rounding to int8, against banding.");
+    d.param("output_padded", &DriverPng::output_padded,
+            "The whole frame, black around the region; off: the region only.");
+    d.param("unpremult_alpha", &DriverPng::unpremult_alpha,
+            "Divides colours by alpha; int8 only.");
     d.param("skip_alpha", &DriverPng::skip_alpha, "Leaves alpha out.");
     return d.done();
 }

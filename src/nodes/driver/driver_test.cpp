@@ -43,14 +43,19 @@ ImageHeader header_of(std::vector<ImageLayer> layers) {
 
 class DriverTest : public testing::Test {
   protected:
-    DriverTest() : folder_(std::filesystem::temp_directory_path() / ("lightsieve-driver-" + std::to_string(::getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    DriverTest()
+        : folder_(std::filesystem::temp_directory_path() /
+                  ("lightsieve-driver-" + std::to_string(::getpid()) +
+                   testing::UnitTest::GetInstance()->current_test_info()->name())) {
         std::filesystem::create_directories(folder_);
     }
     ~DriverTest() override {
         std::error_code ec;
         std::filesystem::remove_all(folder_, ec);
     }
-    [[nodiscard]] std::string in_folder(const std::string& name) const { return (folder_ / name).string(); }
+    [[nodiscard]] std::string in_folder(const std::string& name) const {
+        return (folder_ / name).string();
+    }
 
     [[nodiscard]] std::unique_ptr<Driver> make(TestNode& node, const std::string& file) {
         node.set("filename", Name(in_folder(file)));
@@ -58,18 +63,25 @@ class DriverTest : public testing::Test {
     }
 
     /// Renders a constant in each layer; `values` has n_channels numbers a layer.
-    void render(Driver& driver, const ImageHeader& header, const std::vector<std::vector<float>>& values) {
+    void render(Driver& driver, const ImageHeader& header,
+                const std::vector<std::vector<float>>& values) {
         Diagnostics diagnostics;
         ASSERT_TRUE(driver.open(header, diagnostics)) << diagnostics.render();
         for (int y = header.data_y; y < header.data_y + header.data_height; y += kBucket) {
             for (int x = header.data_x; x < header.data_x + header.data_width; x += kBucket) {
-                Bucket bucket{x, y, std::min(kBucket, header.data_x + header.data_width - x), std::min(kBucket, header.data_y + header.data_height - y), {}};
+                Bucket bucket{x,
+                              y,
+                              std::min(kBucket, header.data_x + header.data_width - x),
+                              std::min(kBucket, header.data_y + header.data_height - y),
+                              {}};
                 std::vector<std::vector<float>> pixels;
                 for (const std::vector<float>& value : values) {
                     std::vector<float>& run = pixels.emplace_back();
-                    for (int i = 0; i < bucket.width * bucket.height; ++i) run.insert(run.end(), value.begin(), value.end());
+                    for (int i = 0; i < bucket.width * bucket.height; ++i)
+                        run.insert(run.end(), value.begin(), value.end());
                 }
-                for (const std::vector<float>& run : pixels) bucket.layers.emplace_back(run);
+                for (const std::vector<float>& run : pixels)
+                    bucket.layers.emplace_back(run);
                 driver.write(bucket);
             }
         }
@@ -84,7 +96,8 @@ class DriverTest : public testing::Test {
     }
     [[nodiscard]] std::vector<std::string> channels(const std::string& file) const {
         std::vector<std::string> names;
-        for (const ExrReadChannel& c : read_exr_header(in_folder(file)).channels) names.push_back(c.name);
+        for (const ExrReadChannel& c : read_exr_header(in_folder(file)).channels)
+            names.push_back(c.name);
         return names;
     }
 
@@ -100,7 +113,8 @@ TEST_F(DriverTest, ExrKeepsRenderingSpaceValues) {
     TestNode node(node_driver_exr());
     const auto driver = make(node, "a.exr");
     EXPECT_EQ(driver->path(), in_folder("a.exr"));
-    render(*driver, header_of({layer("RGBA", "RGBA", 4), layer("Z", "FLOAT", 1)}), {{0.5F, -1, 30, 0.25F}, {7}});
+    render(*driver, header_of({layer("RGBA", "RGBA", 4), layer("Z", "FLOAT", 1)}),
+           {{0.5F, -1, 30, 0.25F}, {7}});
     const ExrFile file = read_exr(in_folder("a.exr"));
     EXPECT_TRUE(file.tiled);
     EXPECT_EQ(file.compression, ExrCompression::Zip);
@@ -116,9 +130,14 @@ TEST_F(DriverTest, ExrChannelNamesFollowArnold) {
     ImageLayer renamed = layer("RGBA", "RGBA", 4);
     renamed.name = "beauty";
     ImageLayer id = layer("ID", "UINT", 1);
-    render(*make(node, "a.exr"), header_of({layer("RGBA", "RGBA", 4), layer("diffuse", "RGB", 3), layer("N", "VECTOR", 3), layer("motionvector", "VECTOR2", 2), layer("Z", "FLOAT", 1), id}),
-           {{0, 0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0}, {0}, {std::bit_cast<float>(3000000001U)}});
-    EXPECT_EQ(channels("a.exr"), (Names{"A", "B", "G", "ID", "N.X", "N.Y", "N.Z", "R", "Z", "diffuse.B", "diffuse.G", "diffuse.R", "motionvector.X", "motionvector.Y"}));
+    render(
+        *make(node, "a.exr"),
+        header_of({layer("RGBA", "RGBA", 4), layer("diffuse", "RGB", 3), layer("N", "VECTOR", 3),
+                   layer("motionvector", "VECTOR2", 2), layer("Z", "FLOAT", 1), id}),
+        {{0, 0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0}, {0}, {std::bit_cast<float>(3000000001U)}});
+    EXPECT_EQ(channels("a.exr"),
+              (Names{"A", "B", "G", "ID", "N.X", "N.Y", "N.Z", "R", "Z", "diffuse.B", "diffuse.G",
+                     "diffuse.R", "motionvector.X", "motionvector.Y"}));
     const ExrFile file = read_exr(in_folder("a.exr"));
     EXPECT_EQ(file.find("ID")->type, ExrPixelType::UInt);
     EXPECT_EQ(std::bit_cast<std::uint32_t>(file.find("ID")->pixels[9]), 3000000001U);
@@ -131,7 +150,8 @@ TEST_F(DriverTest, ExrChannelNamesFollowArnold) {
     node.set("preserve_layer_name", true);
     render(*make(node, "a.exr"), header_of({renamed}), {{0, 0, 0, 0}});
     EXPECT_EQ(channels("a.exr"), (Names{"beauty.A", "beauty.B", "beauty.G", "beauty.R"}));
-    render(*make(node, "a.exr"), header_of({renamed, layer("Z", "FLOAT", 1)}), {{0, 0, 0, 0}, {0}});
+    render(*make(node, "a.exr"), header_of({renamed, layer("Z", "FLOAT", 1)}),
+           {{0, 0, 0, 0}, {0}});
     EXPECT_EQ(channels("a.exr"), (Names{"Z", "beauty.A", "beauty.B", "beauty.G", "beauty.R"}));
 }
 
@@ -140,7 +160,8 @@ TEST_F(DriverTest, ExrHalfPrecisionScanlinesPartsAndCompression) {
     ImageLayer half = layer("diffuse", "RGB", 3);
     half.half = true;
     node.set("tiled", false).set("multipart", true).set_enum("compression", 4);
-    render(*make(node, "a.exr"), header_of({layer("RGBA", "RGBA", 4), half}), {{1, 1, 1, 1}, {0.1F, 2, 3}});
+    render(*make(node, "a.exr"), header_of({layer("RGBA", "RGBA", 4), half}),
+           {{1, 1, 1, 1}, {0.1F, 2, 3}});
     const ExrFile file = read_exr(in_folder("a.exr"));
     EXPECT_FALSE(file.tiled);
     EXPECT_EQ(file.n_parts, 2);
@@ -148,20 +169,23 @@ TEST_F(DriverTest, ExrHalfPrecisionScanlinesPartsAndCompression) {
     EXPECT_EQ(file.find("R")->type, ExrPixelType::Float);
     EXPECT_EQ(file.find("diffuse.R")->type, ExrPixelType::Half);
     node.set("half_precision", true);
-    render(*make(node, "a.exr"), header_of({layer("RGBA", "RGBA", 4), layer("ID", "UINT", 1)}), {{1, 1, 1, 1}, {0}});
+    render(*make(node, "a.exr"), header_of({layer("RGBA", "RGBA", 4), layer("ID", "UINT", 1)}),
+           {{1, 1, 1, 1}, {0}});
     EXPECT_EQ(read_exr(in_folder("a.exr")).find("R")->type, ExrPixelType::Half);
     EXPECT_EQ(read_exr(in_folder("a.exr")).find("ID")->type, ExrPixelType::UInt);
 }
 
 TEST_F(DriverTest, ExrHeaderTellsWhatLayersAre) {
     TestNode node(node_driver_exr());
-    node.set_array<Name>("custom_attributes", {"STRING shot a b c", "INT take 3", "FLOAT gain 1.5", "VECTOR2 size 2 3", "nonsense", "INT take x"});
+    node.set_array<Name>("custom_attributes", {"STRING shot a b c", "INT take 3", "FLOAT gain 1.5",
+                                               "VECTOR2 size 2 3", "nonsense", "INT take x"});
     ImageLayer key = layer("diffuse_key", "RGB", 3);
     key.aov = "diffuse";
     key.expression = "C<RD>.*<L.'key'>";
     key.light_group = "key";
     ImageHeader header = header_of({layer("RGBA", "RGBA", 4), key});
-    header.metadata = {{"lightsieve/samples", 16}, {"lightsieve/partitions", std::string("RGBA = a + b")}};
+    header.metadata = {{"lightsieve/samples", 16},
+                       {"lightsieve/partitions", std::string("RGBA = a + b")}};
     header.pixel_aspect_ratio = 2;
     render(*make(node, "a.exr"), header, {{0, 0, 0, 0}, {0, 0, 0}});
     const ExrInfo info = exr_info(in_folder("a.exr"));
@@ -190,7 +214,8 @@ TEST_F(DriverTest, ExrConvertsColorsButNotDataIfAsked) {
     node.set("color_space", Name("lin_rec709"));
     ImageLayer normal = layer("P", "RGB", 3);
     normal.is_color = false;
-    render(*make(node, "a.exr"), header_of({layer("RGBA", "RGBA", 4), normal}), {{0, 1, 0, 0.5F}, {0, 1, 0}});
+    render(*make(node, "a.exr"), header_of({layer("RGBA", "RGBA", 4), normal}),
+           {{0, 1, 0, 0.5F}, {0, 1, 0}});
     const ExrFile file = read_exr(in_folder("a.exr"));
     EXPECT_NEAR(file.find("R")->pixels[0], -0.6217921F, 1e-5F);
     EXPECT_NEAR(file.find("G")->pixels[0], 1.1408047F, 1e-5F);
@@ -217,7 +242,9 @@ TEST_F(DriverTest, ExrRegionsBecomeDataWindows) {
 TEST_F(DriverTest, ChannelsOfOneNameAreRefused) {
     TestNode node(node_driver_exr());
     Diagnostics diagnostics;
-    EXPECT_FALSE(make(node, "a.exr")->open(header_of({layer("RGBA", "RGBA", 4), layer("RGB", "RGB", 3)}), diagnostics));
+    EXPECT_FALSE(
+        make(node, "a.exr")
+            ->open(header_of({layer("RGBA", "RGBA", 4), layer("RGB", "RGB", 3)}), diagnostics));
     ASSERT_EQ(diagnostics.items().size(), 1U);
     EXPECT_EQ(diagnostics.items()[0].code, Code::OutputLayers);
     EXPECT_TRUE(diagnostics.items()[0].where.known());
@@ -234,7 +261,8 @@ TEST_F(DriverTest, PicturesAreSrgbOfEightBitsAndRawIfAsked) {
         render(*make(node, file), header_of({layer("RGBA", "RGBA", 4)}), {{0.5F, 0.5F, 0.5F, 1}});
         EXPECT_NEAR(stored(file).g, 188 / 255.0F, 1e-6F);
         node.set("color_space", Name(""));
-        render(*make(node, file), header_of({layer("RGBA", "RGBA", 4)}), {{0.5F, -3, std::nanf(""), 1}});
+        render(*make(node, file), header_of({layer("RGBA", "RGBA", 4)}),
+               {{0.5F, -3, std::nanf(""), 1}});
         EXPECT_NEAR(stored(file).r, 128 / 255.0F, 1e-6F);
         EXPECT_EQ(stored(file).g, 0);
         EXPECT_EQ(stored(file).b, 0);
@@ -294,10 +322,13 @@ TEST_F(DriverTest, PicturesHoldOneLayerOfNumbersInZeroToOne) {
     for (NodeType (*type)() : {&node_driver_png, &node_driver_tiff}) {
         TestNode node(type());
         Diagnostics diagnostics;
-        EXPECT_FALSE(make(node, "a.x")->open(header_of({layer("RGBA", "RGBA", 4), layer("diffuse", "RGB", 3)}), diagnostics));
+        EXPECT_FALSE(make(node, "a.x")
+                         ->open(header_of({layer("RGBA", "RGBA", 4), layer("diffuse", "RGB", 3)}),
+                                diagnostics));
         EXPECT_FALSE(make(node, "a.x")->open(header_of({layer("ID", "UINT", 1)}), diagnostics));
         ASSERT_EQ(diagnostics.items().size(), 2U);
-        for (const Error& e : diagnostics.items()) EXPECT_EQ(e.code, Code::OutputLayers);
+        for (const Error& e : diagnostics.items())
+            EXPECT_EQ(e.code, Code::OutputLayers);
     }
 }
 
@@ -305,7 +336,8 @@ TEST_F(DriverTest, UnwritableFoldersAreFoundBeforeTheFirstRay) {
     for (NodeType (*type)() : {&node_driver_exr, &node_driver_png, &node_driver_tiff}) {
         TestNode node(type());
         Diagnostics diagnostics;
-        EXPECT_FALSE(make(node, "none/a.exr")->open(header_of({layer("RGBA", "RGBA", 4)}), diagnostics));
+        EXPECT_FALSE(
+            make(node, "none/a.exr")->open(header_of({layer("RGBA", "RGBA", 4)}), diagnostics));
         ASSERT_EQ(diagnostics.items().size(), 1U);
         EXPECT_EQ(diagnostics.items()[0].code, Code::FileUnwritable);
         EXPECT_EQ(diagnostics.items()[0].where.text(), "filename");

@@ -13,7 +13,8 @@ struct DriverTiff {
     Name color_space = "auto";
     Compression compression = Compression::Lzw;
     Format format = Format::Int8;
-    bool tiled = true, dither = true, output_padded = false, unpremult_alpha = false, skip_alpha = false, append = false;
+    bool tiled = true, dither = true, output_padded = false, unpremult_alpha = false,
+         skip_alpha = false, append = false;
 
     static NodeType describe();
     [[nodiscard]] std::unique_ptr<Driver> make_driver(NodeContext& context) const;
@@ -21,14 +22,23 @@ struct DriverTiff {
 
 NodeType DriverTiff::describe() {
     Describe<DriverTiff> d("driver_tiff", NodeKind::Driver, "Writes one layer as a TIFF picture.");
-    d.param("filename", &DriverTiff::filename, "The file; relative names are relative to where the command is run, or to -o.");
-    d.param("color_space", &DriverTiff::color_space, "What colours are converted to; auto: sRGB for int8, else ACEScg; empty: nothing.");
-    d.param("compression", &DriverTiff::compression, "How pixels are packed; none of these loses precision.").names({"none", "lzw", "rle", "zip"});
-    d.param("format", &DriverTiff::format, "Type of a channel; integers are clamped to 0..1 and rounded.").names({"int8", "int16", "int32", "float32"});
+    d.param("filename", &DriverTiff::filename,
+            "The file; relative names are relative to where the command is run, or to -o.");
+    d.param("color_space", &DriverTiff::color_space,
+            "What colours are converted to; auto: sRGB for int8, else ACEScg; empty: nothing.");
+    d.param("compression", &DriverTiff::compression,
+            "How pixels are packed; none of these loses precision.")
+        .names({"none", "lzw", "rle", "zip"});
+    d.param("format", &DriverTiff::format,
+            "Type of a channel; integers are clamped to 0..1 and rounded.")
+        .names({"int8", "int16", "int32", "float32"});
     d.param("tiled", &DriverTiff::tiled, "Tiles instead of scanlines.");
-    d.param("dither", &DriverTiff::dither, "Adds noise of one step before rounding to int8, against banding.");
-    d.param("output_padded", &DriverTiff::output_padded, "The whole frame, black around the region; off: the region only.");
-    d.param("unpremult_alpha", &DriverTiff::unpremult_alpha, "Divides colours by alpha; int8 only.");
+    d.param("dither", &DriverTiff::dither,
+            "Adds noise of one step before rounding to int8, against banding.");
+    d.param("output_padded", &DriverTiff::output_padded,
+            "The whole frame, black around the region; off: the region only.");
+    d.param("unpremult_alpha", &DriverTiff::unpremult_alpha,
+            "Divides colours by alpha; int8 only.");
     d.param("skip_alpha", &DriverTiff::skip_alpha, "Leaves alpha out.");
     d.param("append", &DriverTiff::append, "Goes on with a file that was begun.").pending();
     return d.done();

@@ -15,20 +15,26 @@ struct BlackmanHarrisFilter {
 };
 
 NodeType BlackmanHarrisFilter::describe() {
-    Describe<BlackmanHarrisFilter> d("blackman_harris_filter", NodeKind::Filter, "Blackman-Harris window: smooth, close to a narrow Gaussian.");
-    d.param("width", &BlackmanHarrisFilter::width, "Width of the support.").unit("pixels").hard_range(0.01F, 64);
+    Describe<BlackmanHarrisFilter> d(
+        "blackman_harris_filter", NodeKind::Filter,
+        "Blackman-Harris window: smooth, close to a narrow Gaussian.");
+    d.param("width", &BlackmanHarrisFilter::width, "Width of the support.")
+        .unit("pixels")
+        .hard_range(0.01F, 64);
     return d.done();
 }
 
 /// The minimum 4-term window, t in [0, 1] from the centre to the edge. Source: Harris 1978, table 1.
 double blackman_harris(double t) {
     constexpr double kPiD = 3.14159265358979323846;
-    return 0.35875 + 0.48829 * std::cos(kPiD * t) + 0.14128 * std::cos(2 * kPiD * t) + 0.01168 * std::cos(3 * kPiD * t);
+    return 0.35875 + 0.48829 * std::cos(kPiD * t) + 0.14128 * std::cos(2 * kPiD * t) +
+           0.01168 * std::cos(3 * kPiD * t);
 }
 
 std::unique_ptr<PixelFilter> BlackmanHarrisFilter::make_filter(NodeContext&) const {
     const double r = double{width} / 2;
-    return std::make_unique<SeparableFilter>(width / 2, [r](double x) { return blackman_harris(x / r); });
+    return std::make_unique<SeparableFilter>(width / 2,
+                                             [r](double x) { return blackman_harris(x / r); });
 }
 
 }  // namespace

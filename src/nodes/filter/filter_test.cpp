@@ -44,7 +44,9 @@ class EveryFilter : public testing::TestWithParam<Case> {
         const double r = double{filter_->radius()}, step = 2 * r / steps;
         double sum = 0;
         for (int y = 0; y < steps; ++y) {
-            for (int x = 0; x < steps; ++x) sum += g(Vec2f{static_cast<float>((x + 0.5) * step - r), static_cast<float>((y + 0.5) * step - r)});
+            for (int x = 0; x < steps; ++x)
+                sum += g(Vec2f{static_cast<float>((x + 0.5) * step - r),
+                               static_cast<float>((y + 0.5) * step - r)});
         }
         return sum * step * step;
     }
@@ -68,7 +70,8 @@ TEST_P(EveryFilter, WeighsSamplesByTheFilterOverTheDensity) {
         ASSERT_EQ(std::abs(s.weight), first);  // a constant, but for the sign
         const double density = double{filter_->pdf(s.offset)};
         if (density > 1e-3) {
-            ASSERT_NEAR(double{s.weight}, double{filter_->eval(s.offset)} / (integral * density), 4e-3);
+            ASSERT_NEAR(double{s.weight}, double{filter_->eval(s.offset)} / (integral * density),
+                        4e-3);
         }
     }
     if (GetParam().is_signed) {
@@ -86,17 +89,22 @@ TEST_P(EveryFilter, SamplesFollowTheDensity) {
     const int steps = kCells * kSubsteps;
     for (int y = 0; y < steps; ++y) {
         for (int x = 0; x < steps; ++x) {
-            const Vec2f p{static_cast<float>(((x + 0.5) / steps * 2 - 1) * r), static_cast<float>(((y + 0.5) / steps * 2 - 1) * r)};
-            expected[static_cast<std::size_t>(y / kSubsteps * kCells + x / kSubsteps)] += double{filter_->pdf(p)};
+            const Vec2f p{static_cast<float>(((x + 0.5) / steps * 2 - 1) * r),
+                          static_cast<float>(((y + 0.5) / steps * 2 - 1) * r)};
+            expected[static_cast<std::size_t>(y / kSubsteps * kCells + x / kSubsteps)] +=
+                double{filter_->pdf(p)};
         }
     }
     double total = 0;
-    for (const double e : expected) total += e;
+    for (const double e : expected)
+        total += e;
     std::mt19937 random(1234);
     std::uniform_real_distribution<float> uniform(0, 1);
     for (int i = 0; i < kSamples; ++i) {
         const Vec2f p = filter_->sample({uniform(random), uniform(random)}).offset;
-        const auto cell = [&](float v) { return std::clamp(static_cast<int>((double{v} / r + 1) * 0.5 * kCells), 0, kCells - 1); };
+        const auto cell = [&](float v) {
+            return std::clamp(static_cast<int>((double{v} / r + 1) * 0.5 * kCells), 0, kCells - 1);
+        };
         counted[static_cast<std::size_t>(cell(p.y) * kCells + cell(p.x))] += 1;
     }
     // Cells that expect few samples are pooled.
@@ -113,27 +121,35 @@ TEST_P(EveryFilter, SamplesFollowTheDensity) {
         ++degrees;
     }
     if (pooled_expected > 5) {
-        chi2 += (pooled_counted - pooled_expected) * (pooled_counted - pooled_expected) / pooled_expected;
+        chi2 += (pooled_counted - pooled_expected) * (pooled_counted - pooled_expected) /
+                pooled_expected;
         ++degrees;
     }
     ASSERT_GT(degrees, 10);
     // Wilson and Hilferty 1931: the cube root of chi2/n is nearly normal. 4 sigma: a false alarm in 30,000 for a free seed.
-    const double n = degrees, z = (std::cbrt(chi2 / n) - (1 - 2 / (9 * n))) / std::sqrt(2 / (9 * n));
+    const double n = degrees,
+                 z = (std::cbrt(chi2 / n) - (1 - 2 / (9 * n))) / std::sqrt(2 / (9 * n));
     EXPECT_LT(z, 4) << chi2 << " of " << degrees;
 }
 
 /// The mean of weight * g(offset) is the filtered g.
 TEST_P(EveryFilter, FiltersAPictureWithoutBias) {
-    const auto picture = [](Vec2f p) { return 1 + double{p.x} + 3 * double{p.x} * double{p.x} + double{p.y} * double{p.y}; };
+    const auto picture = [](Vec2f p) {
+        return 1 + double{p.x} + 3 * double{p.x} * double{p.x} + double{p.y} * double{p.y};
+    };
     const double integral = integrate([&](Vec2f p) { return double{filter_->eval(p)}; });
-    const double expected = integrate([&](Vec2f p) { return double{filter_->eval(p)} * picture(p); }) / integral;
+    const double expected =
+        integrate([&](Vec2f p) { return double{filter_->eval(p)} * picture(p); }) / integral;
     // Hammersley points: the signs of the weights change along lines of u, which these points divide evenly.
     constexpr std::uint32_t kPoints = 65536;
     double sum = 0, weights = 0;
     for (std::uint32_t i = 0; i < kPoints; ++i) {
         std::uint32_t reversed = 0;
-        for (int bit = 0; bit < 16; ++bit) reversed |= (i >> bit & 1U) << (15 - bit);
-        const PixelFilter::Sample s = filter_->sample({(static_cast<float>(i) + 0.5F) / kPoints, (static_cast<float>(reversed) + 0.5F) / kPoints});
+        for (int bit = 0; bit < 16; ++bit)
+            reversed |= (i >> bit & 1U) << (15 - bit);
+        const PixelFilter::Sample s =
+            filter_->sample({(static_cast<float>(i) + 0.5F) / kPoints,
+                             (static_cast<float>(reversed) + 0.5F) / kPoints});
         sum += double{s.weight} * picture(s.offset);
         weights += double{s.weight};
     }
@@ -141,12 +157,19 @@ TEST_P(EveryFilter, FiltersAPictureWithoutBias) {
     EXPECT_NEAR(sum / kPoints, expected, 8e-3 * std::max(1.0, std::abs(expected)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Filters, EveryFilter,
-                         testing::Values(Case{"box", &node_box_filter, 1, false}, Case{"wide_box", &node_box_filter, 3, false}, Case{"closest", &node_closest_filter, 1, false},
-                                         Case{"gaussian", &node_gaussian_filter, 2, false}, Case{"wide_gaussian", &node_gaussian_filter, 5, false},
-                                         Case{"triangle", &node_triangle_filter, 2, false}, Case{"blackman_harris", &node_blackman_harris_filter, 3, false},
-                                         Case{"catrom", &node_catrom_filter, 4, true}, Case{"mitnet", &node_mitnet_filter, 4, true}, Case{"sinc", &node_sinc_filter, 6, true}),
-                         [](const testing::TestParamInfo<Case>& filter) { return filter.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Filters, EveryFilter,
+    testing::Values(Case{"box", &node_box_filter, 1, false},
+                    Case{"wide_box", &node_box_filter, 3, false},
+                    Case{"closest", &node_closest_filter, 1, false},
+                    Case{"gaussian", &node_gaussian_filter, 2, false},
+                    Case{"wide_gaussian", &node_gaussian_filter, 5, false},
+                    Case{"triangle", &node_triangle_filter, 2, false},
+                    Case{"blackman_harris", &node_blackman_harris_filter, 3, false},
+                    Case{"catrom", &node_catrom_filter, 4, true},
+                    Case{"mitnet", &node_mitnet_filter, 4, true},
+                    Case{"sinc", &node_sinc_filter, 6, true}),
+    [](const testing::TestParamInfo<Case>& filter) { return filter.param.name; });
 
 TEST(Filters, HaveTheirShapes) {
     const auto gaussian = make(node_gaussian_filter(), 2);

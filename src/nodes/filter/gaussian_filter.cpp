@@ -16,8 +16,12 @@ struct GaussianFilter {
 };
 
 NodeType GaussianFilter::describe() {
-    Describe<GaussianFilter> d("gaussian_filter", NodeKind::Filter, "A Gaussian, cut off at its radius.");
-    d.param("width", &GaussianFilter::width, "Diameter of the support; the Gaussian falls to exp(-2) at its edge.").unit("pixels").hard_range(0.01F, 64);
+    Describe<GaussianFilter> d("gaussian_filter", NodeKind::Filter,
+                               "A Gaussian, cut off at its radius.");
+    d.param("width", &GaussianFilter::width,
+            "Diameter of the support; the Gaussian falls to exp(-2) at its edge.")
+        .unit("pixels")
+        .hard_range(0.01F, 64);
     return d.done();
 }
 
@@ -42,7 +46,9 @@ class Gaussian final : public PixelFilter {
         return {disk * (t * radius_ / std::sqrt(u2)), 1};
     }
 
-    [[nodiscard]] float pdf(Vec2f offset) const override { return eval(offset) * kExponent / (kPi * radius_ * radius_ * kMass); }
+    [[nodiscard]] float pdf(Vec2f offset) const override {
+        return eval(offset) * kExponent / (kPi * radius_ * radius_ * kMass);
+    }
 
   private:
     static constexpr float kExponent = 2;
@@ -50,7 +56,9 @@ class Gaussian final : public PixelFilter {
     float radius_;
 };
 
-std::unique_ptr<PixelFilter> GaussianFilter::make_filter(NodeContext&) const { return std::make_unique<Gaussian>(width / 2); }
+std::unique_ptr<PixelFilter> GaussianFilter::make_filter(NodeContext&) const {
+    return std::make_unique<Gaussian>(width / 2);
+}
 
 }  // namespace
 

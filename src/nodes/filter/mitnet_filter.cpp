@@ -13,8 +13,12 @@ struct MitnetFilter {
 };
 
 NodeType MitnetFilter::describe() {
-    Describe<MitnetFilter> d("mitnet_filter", NodeKind::Filter, "Mitchell-Netravali spline: between sharp and smooth, with small negative lobes.");
-    d.param("width", &MitnetFilter::width, "Width of the support.").unit("pixels").hard_range(0.01F, 64);
+    Describe<MitnetFilter> d(
+        "mitnet_filter", NodeKind::Filter,
+        "Mitchell-Netravali spline: between sharp and smooth, with small negative lobes.");
+    d.param("width", &MitnetFilter::width, "Width of the support.")
+        .unit("pixels")
+        .hard_range(0.01F, 64);
     return d.done();
 }
 
@@ -26,7 +30,8 @@ double mitchell_netravali(double t) {
 
 std::unique_ptr<PixelFilter> MitnetFilter::make_filter(NodeContext&) const {
     const double scale = 4 / double{width};
-    return std::make_unique<SeparableFilter>(width / 2, [scale](double x) { return mitchell_netravali(x * scale); });
+    return std::make_unique<SeparableFilter>(
+        width / 2, [scale](double x) { return mitchell_netravali(x * scale); });
 }
 
 }  // namespace

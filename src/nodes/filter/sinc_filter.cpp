@@ -15,8 +15,12 @@ struct SincFilter {
 };
 
 NodeType SincFilter::describe() {
-    Describe<SincFilter> d("sinc_filter", NodeKind::Filter, "Sinc under a Lanczos window: sharp, with negative lobes that ring at edges.");
-    d.param("width", &SincFilter::width, "Width of the support.").unit("pixels").hard_range(0.01F, 64);
+    Describe<SincFilter> d(
+        "sinc_filter", NodeKind::Filter,
+        "Sinc under a Lanczos window: sharp, with negative lobes that ring at edges.");
+    d.param("width", &SincFilter::width, "Width of the support.")
+        .unit("pixels")
+        .hard_range(0.01F, 64);
     return d.done();
 }
 
@@ -29,7 +33,8 @@ double sinc(double x) {
 /// Source: Duchon 1979, "Lanczos filtering in one and two dimensions".
 std::unique_ptr<PixelFilter> SincFilter::make_filter(NodeContext&) const {
     const double r = double{width} / 2;
-    return std::make_unique<SeparableFilter>(width / 2, [r](double x) { return sinc(x) * sinc(x / r); });
+    return std::make_unique<SeparableFilter>(width / 2,
+                                             [r](double x) { return sinc(x) * sinc(x / r); });
 }
 
 }  // namespace

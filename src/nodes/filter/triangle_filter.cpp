@@ -13,8 +13,11 @@ struct TriangleFilter {
 };
 
 NodeType TriangleFilter::describe() {
-    Describe<TriangleFilter> d("triangle_filter", NodeKind::Filter, "Falls linearly to 0, along x and along y.");
-    d.param("width", &TriangleFilter::width, "Width of the support.").unit("pixels").hard_range(0.01F, 64);
+    Describe<TriangleFilter> d("triangle_filter", NodeKind::Filter,
+                               "Falls linearly to 0, along x and along y.");
+    d.param("width", &TriangleFilter::width, "Width of the support.")
+        .unit("pixels")
+        .hard_range(0.01F, 64);
     return d.done();
 }
 

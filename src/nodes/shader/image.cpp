@@ -34,7 +34,7 @@ struct Image {
     const TextureCache* cache = nullptr;
     const Texture* texture = nullptr;  ///< null: missing
     TextureSampling sampling;
-    float footprint_scale = 1;         ///< of the hit's footprint, from scales and bias
+    float footprint_scale = 1;  ///< of the hit's footprint, from scales and bias
     bool uvcoords_linked = false;
 
     static NodeType describe();
@@ -47,18 +47,32 @@ struct Image {
 
 NodeType Image::describe() {
     Describe<Image> d("image", NodeKind::Shader, "A texture from a picture file.");
-    d.param("filename", &Image::filename, "The file: .tx, EXR, TIFF, PNG, JPEG, HDR and others; looked for along texture_searchpath.");
-    d.param("color_space", &Image::color_space, "What the file's colours are; auto: sRGB for integers, ACEScg for floats; empty: no conversion.");
-    d.param("filter", &Image::filter, "Interpolation; smart_bicubic: a cubic B-spline where texels are magnified, else bilinear.").names({"closest", "bilinear", "bicubic", "smart_bicubic"});
-    d.param("mipmap_bias", &Image::mipmap_bias, "Levels by which the texture is read coarser (or finer, if negative).").range(-5, 5);
+    d.param("filename", &Image::filename,
+            "The file: .tx, EXR, TIFF, PNG, JPEG, HDR and others; looked for along "
+            "texture_searchpath.");
+    d.param("color_space", &Image::color_space,
+            "What the file's colours are; auto: sRGB for integers, ACEScg for floats; empty: no "
+            "conversion.");
+    d.param("filter", &Image::filter,
+            "Interpolation; smart_bicubic: a cubic B-spline where texels are magnified, else "
+            "bilinear.")
+        .names({"closest", "bilinear", "bicubic", "smart_bicubic"});
+    d.param("mipmap_bias", &Image::mipmap_bias,
+            "Levels by which the texture is read coarser (or finer, if negative).")
+        .range(-5, 5);
     d.param("multiply", &Image::multiply, "Factor on the colour.");
     d.param("offset", &Image::offset, "Added to the colour, after multiply.");
-    d.param("ignore_missing_textures", &Image::ignore_missing_textures, "A missing file gives missing_texture_color instead of an error.");
+    d.param("ignore_missing_textures", &Image::ignore_missing_textures,
+            "A missing file gives missing_texture_color instead of an error.");
     d.param("missing_texture_color", &Image::missing_texture_color, "Stands for a missing file.");
-    d.param("single_channel", &Image::single_channel, "Reads start_channel alone and gives it as grey.");
-    d.param("start_channel", &Image::start_channel, "The file's channel that becomes red.").range(0, 31);
-    d.param("swrap", &Image::swrap, "What lies outside 0..1 in s.").names({"periodic", "black", "clamp", "mirror", "file", "missing"});
-    d.param("twrap", &Image::twrap, "What lies outside 0..1 in t.").names({"periodic", "black", "clamp", "mirror", "file", "missing"});
+    d.param("single_channel", &Image::single_channel,
+            "Reads start_channel alone and gives it as grey.");
+    d.param("start_channel", &Image::start_channel, "The file's channel that becomes red.")
+        .range(0, 31);
+    d.param("swrap", &Image::swrap, "What lies outside 0..1 in s.")
+        .names({"periodic", "black", "clamp", "mirror", "file", "missing"});
+    d.param("twrap", &Image::twrap, "What lies outside 0..1 in t.")
+        .names({"periodic", "black", "clamp", "mirror", "file", "missing"});
     d.param("sscale", &Image::sscale, "Factor on s.");
     d.param("tscale", &Image::tscale, "Factor on t.");
     d.param("sflip", &Image::sflip, "Mirrors the texture left to right.");
@@ -66,7 +80,8 @@ NodeType Image::describe() {
     d.param("soffset", &Image::soffset, "Added to s, after sscale.");
     d.param("toffset", &Image::toffset, "Added to t, after tscale.");
     d.param("swap_st", &Image::swap_st, "Exchanges s and t.");
-    d.param("uvcoords", &Image::uvcoords, "Texture coordinates in place of the shape's; acts only when linked.");
+    d.param("uvcoords", &Image::uvcoords,
+            "Texture coordinates in place of the shape's; acts only when linked.");
     d.param("uvset", &Image::uvset, "Set of texture coordinates; empty: the first.").pending();
     return d.done();
 }
@@ -78,24 +93,32 @@ TextureWrap texture_wrap(ImageWrap wrap) {
 
 void Image::prepare(NodeContext& context) {
     sampling = {texture_wrap(swrap), texture_wrap(twrap), filter, start_channel, single_channel};
-    footprint_scale = std::fmax(std::abs(sscale), std::abs(tscale)) * std::exp2(static_cast<float>(mipmap_bias));
+    footprint_scale =
+        std::fmax(std::abs(sscale), std::abs(tscale)) * std::exp2(static_cast<float>(mipmap_bias));
     uvcoords_linked = context.is_linked("uvcoords");
     cache = &context.textures();
     texture = nullptr;
 
     const std::optional<std::string> path = context.find_asset(filename.view());
     if (path) {
-        texture = context.textures().open(*path, color_space.view(), context.diagnostics(), context.where("filename"));
+        texture = context.textures().open(*path, color_space.view(), context.diagnostics(),
+                                          context.where("filename"));
         return;
     }
-    const std::string message = filename.empty() ? "image \"" + context.node_name().str() + "\" has no filename" : "there is no texture \"" + filename.str() + "\"";
+    const std::string message = filename.empty()
+                                    ? "image \"" + context.node_name().str() + "\" has no filename"
+                                    : "there is no texture \"" + filename.str() + "\"";
     if (ignore_missing_textures || context.ignore_missing_textures()) {
-        context.diagnostics().warning(Code::FileNotFound, message + "; missing_texture_color stands for it", context.where("filename"));
+        context.diagnostics().warning(Code::FileNotFound,
+                                      message + "; missing_texture_color stands for it",
+                                      context.where("filename"));
         return;
     }
     const bool pattern = filename.view().find('<') != std::string_view::npos;
-    context.diagnostics().error(Code::FileNotFound, message, context.where("filename"),
-                                pattern ? "tokens such as <udim> are not supported yet; name one file" : "check the name and options.texture_searchpath, or set ignore_missing_textures");
+    context.diagnostics().error(
+        Code::FileNotFound, message, context.where("filename"),
+        pattern ? "tokens such as <udim> are not supported yet; name one file"
+                : "check the name and options.texture_searchpath, or set ignore_missing_textures");
 }
 
 Vec2f Image::texture_coordinates(const ShadePoint& at) const {
@@ -109,7 +132,8 @@ Vec2f Image::texture_coordinates(const ShadePoint& at) const {
 
 Rgba Image::eval(const ShadePoint& at) const {
     const Vec2f st = texture_coordinates(at);
-    const bool outside = (swrap == ImageWrap::Missing && !(st.x >= 0 && st.x <= 1)) || (twrap == ImageWrap::Missing && !(st.y >= 0 && st.y <= 1));
+    const bool outside = (swrap == ImageWrap::Missing && !(st.x >= 0 && st.x <= 1)) ||
+                         (twrap == ImageWrap::Missing && !(st.y >= 0 && st.y <= 1));
     if (texture == nullptr || outside) return missing_texture_color;
     const Rgba texel = cache->lookup(*texture, st, at.uv_width * footprint_scale, sampling);
     return {texel.rgb * multiply + offset, texel.a};

@@ -31,7 +31,10 @@ class AssetContext final : public NodeContext {
     }
     [[nodiscard]] bool ignore_missing_textures() const override { return ignore_missing; }
     [[nodiscard]] Frame frame() const override { return plain.frame(); }
-    [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(NodeRef shape, Mat4f& matrix) override { return plain.geometry_of(shape, matrix); }
+    [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(NodeRef shape,
+                                                             Mat4f& matrix) override {
+        return plain.geometry_of(shape, matrix);
+    }
 
     TestContext plain;
     TextureCache cache;
@@ -42,18 +45,22 @@ class AssetContext final : public NodeContext {
 class ImageNodeTest : public testing::Test {
   protected:
     ImageNodeTest() {
-        context_.folder = std::filesystem::temp_directory_path() / ("lightsieve-image-" + std::to_string(::getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+        context_.folder = std::filesystem::temp_directory_path() /
+                          ("lightsieve-image-" + std::to_string(::getpid()) +
+                           testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::create_directories(context_.folder);
         // Upper row red, green; lower row blue, white; then a float file of one texel.
         PictureSpec spec;
         spec.width = spec.height = 2;
         spec.n_channels = 3;
-        write_picture((context_.folder / "a.png").string(), spec, std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1});
+        write_picture((context_.folder / "a.png").string(), spec,
+                      std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1});
         spec.width = spec.height = 1;
         spec.n_channels = 4;
         spec.format = PictureFormat::Tiff;
         spec.type = PictureType::Float;
-        write_picture((context_.folder / "one.tif").string(), spec, std::vector<float>{0.5F, 2, 3, 0.25F});
+        write_picture((context_.folder / "one.tif").string(), spec,
+                      std::vector<float>{0.5F, 2, 3, 0.25F});
         node_.set("filename", Name("a.png")).set("color_space", Name("")).set_enum("filter", 0);
     }
     ~ImageNodeTest() override {
@@ -104,7 +111,9 @@ TEST_F(ImageNodeTest, WrapModes) {
     prepare();
     EXPECT_EQ(color_at(7, 0.75F), kGreen);
     EXPECT_EQ(color_at(0.25F, 1.75F), kBlack);
-    node_.set_enum("swrap", 5).set_enum("twrap", 3).set("missing_texture_color", Rgba{{0.1F, 0.2F, 0.3F}, 0.4F});
+    node_.set_enum("swrap", 5)
+        .set_enum("twrap", 3)
+        .set("missing_texture_color", Rgba{{0.1F, 0.2F, 0.3F}, 0.4F});
     prepare();
     EXPECT_EQ(at(1.25F, 0.75F), (Rgba{{0.1F, 0.2F, 0.3F}, 0.4F}));
     EXPECT_EQ(color_at(0.25F, 1.25F), kRed);
@@ -112,10 +121,15 @@ TEST_F(ImageNodeTest, WrapModes) {
 }
 
 TEST_F(ImageNodeTest, MultiplyOffsetAlphaAndChannels) {
-    node_.set("filename", Name("one.tif")).set("multiply", Color(2, 0.5F, 1)).set("offset", Color(0, 0, 1));
+    node_.set("filename", Name("one.tif"))
+        .set("multiply", Color(2, 0.5F, 1))
+        .set("offset", Color(0, 0, 1));
     prepare();
     EXPECT_EQ(at(0.5F, 0.5F), (Rgba{{1, 1, 4}, 0.25F}));
-    node_.set("multiply", kWhite).set("offset", kBlack).set("single_channel", true).set("start_channel", std::int32_t{1});
+    node_.set("multiply", kWhite)
+        .set("offset", kBlack)
+        .set("single_channel", true)
+        .set("start_channel", std::int32_t{1});
     prepare();
     EXPECT_EQ(at(0.5F, 0.5F), (Rgba{{2, 2, 2}, 1}));
 }
@@ -124,7 +138,8 @@ TEST_F(ImageNodeTest, ColorSpacesApply) {
     node_.set("color_space", Name("auto"));
     prepare();
     const Color green = ColorConversion(kSrgb, kRenderingSpace)(kGreen);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(color_at(0.75F, 0.75F)[i], green[i], 1e-5F);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(color_at(0.75F, 0.75F)[i], green[i], 1e-5F);
 }
 
 TEST_F(ImageNodeTest, LinkedCoordinatesReplaceTheShapes) {
@@ -137,7 +152,8 @@ TEST_F(ImageNodeTest, LinkedCoordinatesReplaceTheShapes) {
 }
 
 TEST_F(ImageNodeTest, MissingFilesAreErrorsUnlessIgnored) {
-    node_.set("filename", Name("none.png")).set("missing_texture_color", Rgba{{0.1F, 0.2F, 0.3F}, 0.4F});
+    node_.set("filename", Name("none.png"))
+        .set("missing_texture_color", Rgba{{0.1F, 0.2F, 0.3F}, 0.4F});
     prepare();
     ASSERT_EQ(context_.diagnostics().n_errors(), 1U);
     EXPECT_EQ(context_.diagnostics().items()[0].code, Code::FileNotFound);
