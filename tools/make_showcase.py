@@ -148,7 +148,7 @@ def table(u: float, v: float) -> Vec:
 def tube(u: float, v: float) -> Vec:
     """A neon tube: a thin arc behind the things."""
     t = math.pi * (0.08 + 0.84 * v)
-    c = (-0.1 + 2.05 * math.cos(t), 1.75 * math.sin(t) - 0.05, -1.25)
+    c = (-0.1 + 2.05 * math.cos(t), 1.62 * math.sin(t) - 0.05, -1.25)
     radial = (math.cos(t), math.sin(t), 0.0)
     phi, r = 2 * math.pi * u, 0.022
     return tuple(
@@ -159,31 +159,34 @@ def tube(u: float, v: float) -> Vec:
 NODES = """
 options
 {
- AA_samples 6
+ AA_samples 8
  xres 640
- yres 400
+ yres 360
  camera "camera"
  GI_diffuse_depth 2
  GI_specular_depth 2
  GI_transmission_depth 6
  GI_total_depth 8
- outputs 1 1 STRING
-  "RGBA RGBA filter exr"
-}
+@OUTPUTS@}
 
 persp_camera
 {
  name camera
- position 0.35 1.55 4.6
- look_at 0.1 0.62 -0.2
+ position 0.25 1.7 5.6
+ look_at 0 0.62 -0.2
  up 0 1 0
- fov 34
+ fov 37
 }
 
 gaussian_filter
 {
  name filter
  width 2
+}
+
+closest_filter
+{
+ name closest
 }
 
 driver_exr
@@ -199,6 +202,7 @@ quad_light
 {
  name key_light
  aov "key"
+ transmission 1
  vertices 4 1 VECTOR
   -2.6 2.9 0.9  -1.5 3.5 1.7  -1.2 2.6 2.6  -2.3 2.0 1.8
  color 1 0.86 0.7
@@ -225,7 +229,7 @@ point_light
  position 1.25 0.62 -0.55
  radius 0.05
  color 1 0.68 0.36
- intensity 2.2
+ intensity 0.9
 }
 
 quad_light
@@ -324,7 +328,7 @@ standard_surface
  name filament_shader
  base 0
  specular 0
- emission 6
+ emission 5
  emission_color 1 0.62 0.28
 }
 
@@ -373,16 +377,38 @@ sphere
 """
 
 
+# Every built-in AOV of surfaces; volumes come later. A star makes one layer for each light group.
+LIGHT_AOVS = """
+RGBA_* direct indirect emission background
+diffuse diffuse_direct diffuse_indirect specular specular_direct specular_indirect
+coat coat_direct coat_indirect sheen sheen_direct sheen_indirect
+transmission transmission_direct transmission_indirect sss sss_direct sss_indirect
+albedo denoise_albedo diffuse_albedo specular_albedo coat_albedo sheen_albedo transmission_albedo sss_albedo
+reflections
+"""
+
+
+def outputs() -> str:
+    strings = ["RGBA RGBA filter exr"]
+    strings += [f"{name} RGB filter exr" for name in LIGHT_AOVS.split()]
+    strings += ["Z FLOAT closest exr", "N VECTOR closest exr", "P VECTOR closest exr", "ID UINT closest exr"]
+    lines = "\n".join(f'  "{s}"' for s in strings)
+    return f""" light_path_expressions "reflections C<RS>+[LOB]"
+ outputs {len(strings)} 1 STRING
+{lines}
+"""
+
+
 def main() -> None:
     meshes = [
         grid_mesh("table", "table_shader", 1, 48, table, closed=False),
-        grid_mesh("knot", "knot_shader", 224, 20, knot, closed=True),
-        grid_mesh("lamp_shade", "paper_shader", 192, 16, shade, closed=True),
+        grid_mesh("knot", "knot_shader", 160, 14, knot, closed=True),
+        grid_mesh("lamp_shade", "paper_shader", 144, 10, shade, closed=True),
         grid_mesh("neon_tube", "neon_shader", 10, 64, tube, closed=True),
     ]
     path = pathlib.Path(__file__).resolve().parent.parent / "scenes" / "showcase.ass"
     path.parent.mkdir(exist_ok=True)
-    path.write_text(HEADER + NODES + "".join(meshes))
+    path.write_text(HEADER + NODES.replace("@OUTPUTS@", outputs()) + "".join(meshes))
 
 
 if __name__ == "__main__":
