@@ -39,7 +39,7 @@ struct Metal {
 
 Metal metal(const ConductorReflect& c, Vec3f wo) {
     if (c.alpha.smooth()) return {c.n, c.k, kWhite};
-    return {c.n, c.k, kWhite + facing(c.n, c.k) * ggx_lost(wo, c.alpha)};
+    return {c.n, c.k, kWhite + facing(c.n, c.k) * ggx_white(wo, c.alpha).lost};
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ LobeEval ConductorReflect::eval(Vec3f wo, Vec3f wi) const noexcept {
 }
 
 LobeSample ConductorReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {
-    return ggx_sample_reflection_lobe(wo, u, alpha, metal(*this, wo));
+    return ggx_sample_reflection(wo, u, alpha, metal(*this, wo));
 }
 
 Color ConductorReflect::albedo(Vec3f wo) const noexcept {

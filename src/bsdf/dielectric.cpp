@@ -23,7 +23,7 @@ struct FacetReflectance {
     }
 };
 
-FacetReflectance facet_reflectance(Vec3f wo, GgxAlpha alpha, float eta) { return {eta, eta < 1 ? ggx_lost(wo, alpha) : 0.0F}; }
+FacetReflectance facet_reflectance(Vec3f wo, GgxAlpha alpha, float eta) { return {eta, eta < 1 ? ggx_white(wo, alpha).lost : 0.0F}; }
 
 /// Value and density of refraction; the microfacet is described by its cosines.
 /// h_length  |wo + eta wi|
@@ -47,7 +47,7 @@ LobeEval DielectricReflect::eval(Vec3f wo, Vec3f wi) const noexcept {
 }
 
 LobeSample DielectricReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {
-    return ggx_sample_reflection_lobe(wo, u, alpha, facet_reflectance(wo, alpha, eta));
+    return ggx_sample_reflection(wo, u, alpha, facet_reflectance(wo, alpha, eta));
 }
 
 Color DielectricReflect::albedo(Vec3f wo) const noexcept { return Color::grey(dielectric_albedo(wo.z, alpha.toward(wo), eta)); }

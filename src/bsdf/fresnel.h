@@ -32,7 +32,8 @@ struct FresnelDielectric {
 [[nodiscard]] inline float fresnel_dielectric_facing(float eta) noexcept { return square((eta - 1) / (eta + 1)); }
 
 /// Unpolarised reflectance of a metal with index n and extinction k, relative to the side of the light.
-/// source  Lagarde, "Memo on Fresnel equations", 2013 (the exact form)
+/// source  Lagarde, "Memo on Fresnel equations", 2013 (the exact form), with the mean of both polarisations
+///         Rs (1 + (t3 - t4) / (t3 + t4)) / 2 brought to one fraction
 [[nodiscard]] inline float fresnel_conductor(float cos_theta, float n, float k) noexcept {
     const float cos2 = cos_theta * cos_theta, sin2 = 1 - cos2;
     const float n2 = n * n, k2 = k * k;
@@ -40,10 +41,8 @@ struct FresnelDielectric {
     const float a2_b2 = std::sqrt(t0 * t0 + 4 * n2 * k2);
     const float a = std::sqrt(std::max(0.0F, 0.5F * (a2_b2 + t0)));
     const float t1 = a2_b2 + cos2, t2 = 2 * cos_theta * a;
-    const float perpendicular = (t1 - t2) / (t1 + t2);
     const float t3 = cos2 * a2_b2 + sin2 * sin2, t4 = t2 * sin2;
-    const float parallel = perpendicular * (t3 - t4) / (t3 + t4);
-    return std::max(0.5F * (perpendicular + parallel), 0.0F);  // matched indices round to below 0
+    return std::max((t1 - t2) * t3 / ((t1 + t2) * (t3 + t4)), 0.0F);  // matched indices round to below 0
 }
 
 [[nodiscard]] inline Color fresnel_conductor(float cos_theta, Color n, Color k) noexcept {

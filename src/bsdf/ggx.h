@@ -79,12 +79,13 @@ struct GgxAlpha {
 /// A microfacet normal (unit vector) that wo sees, with density G1(wo) D(h) max(0, wo . h) / wo.z.
 [[nodiscard]] inline Vec3f ggx_sample_visible_normal(Vec3f wo, GgxAlpha alpha, Vec2f u) noexcept {
     // Stretch wo to the hemisphere of unit roughness, draw a point of the cap of reflections, unstretch.
-    const Vec3f stretched = normalize(Vec3f{alpha.x * wo.x, alpha.y * wo.y, wo.z});
+    const Vec3f stretched = Vec3f{alpha.x * wo.x, alpha.y * wo.y, wo.z} * (1 / ggx_v(wo, alpha));
     const Vec2f direction = cos_sin_2pi(u.x);
     const float z = (1 - u.y) * (1 + stretched.z) - stretched.z;
     const float r = safe_sqrt(1 - z * z);
     const Vec3f h = Vec3f{r * direction.x, r * direction.y, z} + stretched;
-    return normalize(Vec3f{alpha.x * h.x, alpha.y * h.y, std::max(h.z, 1e-7F)});
+    const Vec3f facet{alpha.x * h.x, alpha.y * h.y, std::max(h.z, 1e-7F)};
+    return facet * (1 / std::sqrt(length_squared(facet)));
 }
 
 /// Reflection by white microfacets.
@@ -103,12 +104,6 @@ struct GgxReflection {
     return {0.5F * d * wi.z / (wi.z * v_o + wo.z * v_i), 0.5F * d / (wo.z + v_o), std::min(0.5F * std::sqrt(h_squared), 1.0F)};
 }
 
-/// Mirrors wo at a microfacet drawn by ggx_sample_visible_normal; may point below the surface.
-[[nodiscard]] inline Vec3f ggx_sample_reflection(Vec3f wo, GgxAlpha alpha, Vec2f u) noexcept {
-    const Vec3f h = ggx_sample_visible_normal(wo, alpha, u);
-    return normalize(h * (2 * dot(wo, h)) - wo);
-}
-
 /// eval() of a rough GGX reflection lobe for wi.z > 0.
 /// fresnel  gives the reflectance of a microfacet for its cosine, with everything else that scales it
 template <class Fresnel>
@@ -119,9 +114,10 @@ template <class Fresnel>
 
 /// sample() of a GGX reflection lobe, smooth or rough.
 template <class Fresnel>
-[[nodiscard]] inline LobeSample ggx_sample_reflection_lobe(Vec3f wo, Vec2f u, GgxAlpha alpha, const Fresnel& fresnel) noexcept {
+[[nodiscard]] inline LobeSample ggx_sample_reflection(Vec3f wo, Vec2f u, GgxAlpha alpha, const Fresnel& fresnel) noexcept {
     if (alpha.smooth()) return {{-wo.x, -wo.y, wo.z}, fresnel(wo.z), 1};
-    const Vec3f wi = ggx_sample_reflection(wo, alpha, u);
+    const Vec3f h = ggx_sample_visible_normal(wo, alpha, u);
+    const Vec3f wi = h * (2 * dot(wo, h)) - wo;
     if (!(wi.z > 0)) return {};
     const GgxReflection r = ggx_reflection(wo, wi, alpha);
     return {wi, fresnel(r.cos_theta) * r.f, r.pdf};

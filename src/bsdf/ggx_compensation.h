@@ -11,12 +11,17 @@
 
 namespace lightsieve {
 
-/// (1 - E) / E toward wo; 0 for smooth lobes.
-[[nodiscard]] inline float ggx_lost(Vec3f wo, GgxAlpha alpha) noexcept {
+/// What white microfacets do with the light from wo.
+struct GgxWhite {
+    float albedo;  ///< E
+    float lost;    ///< (1 - E) / E, less for stretched lobes; 0 for smooth ones
+};
+
+[[nodiscard]] inline GgxWhite ggx_white(Vec3f wo, GgxAlpha alpha) noexcept {
     constexpr float kLeftOut = 0.25F;  // of 0.2, 0.25 and 0.4 the one with a gain of at most 5 % and the least loss
-    if (alpha.smooth()) return 0;
-    const float lost = 1 / ggx_albedo(wo.z, alpha.toward(wo)) - 1;
-    return alpha.x == alpha.y ? lost : lost * (1 - kLeftOut * alpha.stretch());
+    if (alpha.smooth()) return {1, 0};
+    const float e = ggx_albedo(wo.z, alpha.toward(wo)), lost = 1 / e - 1;
+    return {e, alpha.x == alpha.y ? lost : lost * (1 - kLeftOut * alpha.stretch())};
 }
 
 /// Directional albedo of a compensated lobe.
@@ -24,11 +29,11 @@ namespace lightsieve {
 template <class Fresnel>
 [[nodiscard]] inline Color ggx_compensated_albedo(Vec3f wo, GgxAlpha alpha, Color facing, const Fresnel& fresnel) noexcept {
     if (alpha.smooth()) return fresnel(wo.z);
-    const float width = alpha.toward(wo);
-    const MeanCosines mean = ggx_mean_cosines(wo.z, width);
+    const GgxWhite white = ggx_white(wo, alpha);
+    const MeanCosines mean = ggx_mean_cosines(wo.z, alpha.toward(wo));
     Color sum;
     for (std::size_t i = 0; i < mean.cosine.size(); ++i) sum += mean.weight[i] * fresnel(mean.cosine[i]);
-    return clamp(sum * (kWhite + facing * ggx_lost(wo, alpha)) * ggx_albedo(wo.z, width), 0, 1);
+    return clamp(sum * (kWhite + facing * white.lost) * white.albedo, 0, 1);
 }
 
 }  // namespace lightsieve

@@ -15,7 +15,7 @@ struct Facet {
     Color operator()(float cos_theta) const noexcept { return curve.value(cos_theta) * compensation; }
 };
 
-Facet facet(const SchlickReflect& s, Vec3f wo) { return {s.curve, kWhite + s.curve.f0 * ggx_lost(wo, s.alpha)}; }
+Facet facet(const SchlickReflect& s, Vec3f wo) { return {s.curve, kWhite + s.curve.f0 * ggx_white(wo, s.alpha).lost}; }
 
 }  // namespace
 
@@ -30,7 +30,7 @@ LobeEval SchlickReflect::eval(Vec3f wo, Vec3f wi) const noexcept {
 }
 
 LobeSample SchlickReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {
-    return ggx_sample_reflection_lobe(wo, u, alpha, facet(*this, wo));
+    return ggx_sample_reflection(wo, u, alpha, facet(*this, wo));
 }
 
 Color SchlickReflect::albedo(Vec3f wo) const noexcept {
