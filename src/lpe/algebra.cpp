@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::string_view kDefaultGroup = "default";
 /// What no object label may be; the names of light groups are not known here.
-constexpr std::array<std::string_view, 4> kNeverObjectLabels{"coat", "sheen", "hair", kDefaultGroup};
+constexpr std::array<std::string_view, 4> kNeverObjectLabels{"coat", "sheen", "hair",
+                                                             kDefaultGroup};
 
 bool may_be_object_label(const std::string& label) {
     return std::ranges::find(kNeverObjectLabels, label) == kNeverObjectLabels.end();
@@ -34,15 +35,18 @@ std::map<std::string, std::vector<std::size_t>> label_uses(std::span<const Expr>
     const auto collect = [&](const Node& node) {
         if (const auto* label = std::get_if<Label>(&node.form)) add({label->label});
         if (const auto* angle = std::get_if<Angle>(&node.form))
-            for (const LabelTest& test : angle->labels) add(test.labels);
+            for (const LabelTest& test : angle->labels)
+                add(test.labels);
     };
     for (const Expr& expr : exprs)
         if (expr) for_each_node(*expr, collect);
     return uses;
 }
 
-/// One label for each set of labels that are alike, one that may be an object label where there is one.
-std::vector<std::string> distinct_labels(const std::map<std::string, std::vector<std::size_t>>& uses) {
+/// One label for each set of labels that are alike, one that may be an object label where there is
+/// one.
+std::vector<std::string> distinct_labels(
+    const std::map<std::string, std::vector<std::size_t>>& uses) {
     std::map<std::vector<std::size_t>, std::string> by_use;
     for (const auto& [label, use] : uses) {
         const auto [entry, is_new] = by_use.emplace(use, label);
@@ -50,7 +54,8 @@ std::vector<std::string> distinct_labels(const std::map<std::string, std::vector
             entry->second = label;
     }
     std::vector<std::string> labels;
-    for (const auto& [use, label] : by_use) labels.push_back(label);
+    for (const auto& [use, label] : by_use)
+        labels.push_back(label);
     std::ranges::sort(labels);
     return labels;
 }
@@ -58,7 +63,8 @@ std::vector<std::string> distinct_labels(const std::map<std::string, std::vector
 /// Every set of labels that a lobe on an object can carry.
 std::vector<std::vector<std::string>> label_sets(const std::vector<std::string>& labels) {
     std::vector<std::vector<std::string>> sets{{}};
-    for (const std::string& label : labels) sets.push_back({label});
+    for (const std::string& label : labels)
+        sets.push_back({label});
     for (std::size_t i = 0; i < labels.size(); ++i)
         for (std::size_t j = i + 1; j < labels.size(); ++j)
             if (may_be_object_label(labels[i]) || may_be_object_label(labels[j]))
@@ -69,15 +75,17 @@ std::vector<std::vector<std::string>> label_sets(const std::vector<std::string>&
 /// A light group that no expression names: `default` unless one does.
 std::string unnamed_group(const std::map<std::string, std::vector<std::size_t>>& uses) {
     std::string group(kDefaultGroup);
-    for (int i = 1; uses.contains(group); ++i) group = "group" + std::to_string(i);
+    for (int i = 1; uses.contains(group); ++i)
+        group = "group" + std::to_string(i);
     return group;
 }
 
-/// Decides whether a path is what is looked for, from what each expression says and the path's last event.
+/// Decides whether a path is what is looked for, from what each expression says and the path's
+/// last event.
 using Wanted = std::function<bool(const std::vector<bool>& taken, const Event& last)>;
 
-/// Breadth-first search for a shortest path that the first expression takes and `wanted` accepts, through the product of
-/// the expressions' automata.
+/// Breadth-first search for a shortest path that the first expression takes and `wanted` accepts,
+/// through the product of the expressions' automata.
 class Search {
   public:
     Search(std::span<const Expr> exprs, std::span<const Event> events, const Limits& limits)
@@ -98,11 +106,13 @@ class Search {
             for (EventClass c = alphabet_.first_terminal(); c < alphabet_.n_classes(); ++c) {
                 // A probe needs a vertex: C A is no path.
                 if (now[n_] == kAtCamera && !alphabet_.is_light(c)) continue;
-                for (std::size_t i = 0; i < n_; ++i) taken[i] = pool_.accepts(now[i], c);
+                for (std::size_t i = 0; i < n_; ++i)
+                    taken[i] = pool_.accepts(now[i], c);
                 if (taken[0] && wanted(taken, alphabet_.example(c))) return path_to(state, c);
             }
             for (EventClass c = Alphabet::kFirstScatter; c < alphabet_.first_terminal(); ++c) {
-                for (std::size_t i = 0; i < n_; ++i) next[i] = pool_.derive(now[i], c);
+                for (std::size_t i = 0; i < n_; ++i)
+                    next[i] = pool_.derive(now[i], c);
                 pool_.count_steps(n_);
                 if (next[0] != TermPool::kNothing) add(next, state, c);
             }
@@ -141,7 +151,7 @@ class Search {
     const Limits& limits_;
     TermPool pool_;
     std::size_t n_;
-    Interner states_;                ///< one term for each expression, and the last word; 0 is the start
+    Interner states_;  ///< one term for each expression, and the last word; 0 is the start
     std::vector<Arrival> arrivals_;  ///< per state: how it was first reached
 };
 
@@ -165,15 +175,15 @@ std::vector<Event> abstract_events(std::span<const Expr> exprs, const Limits& li
     const std::map<std::string, std::vector<std::size_t>> uses = label_uses(exprs);
     const std::vector<std::string> labels = distinct_labels(uses);
     if (labels.size() > limits.max_labels)
-        throw InputError(OverBudget{Code::LimitLpeLabels,
-                                    "would have to tell " + std::to_string(labels.size()) +
-                                        " labels apart",
-                                    "max_labels"}
+        throw InputError(OverBudget{
+            Code::LimitLpeLabels,
+            "would have to tell " + std::to_string(labels.size()) + " labels apart", "max_labels"}
                              .error("the proof", {}));
     std::vector<Event> events;
     const std::vector<std::vector<std::string>> sets = label_sets(labels);
     const auto add_all = [&](EventKind kind, EventLobe lobe) {
-        for (const std::vector<std::string>& set : sets) events.push_back({kind, lobe, set});
+        for (const std::vector<std::string>& set : sets)
+            events.push_back({kind, lobe, set});
     };
     add_all(EventKind::Reflection, EventLobe::Diffuse);
     add_all(EventKind::Reflection, EventLobe::Specular);

@@ -1,8 +1,10 @@
-// Proofs about expressions, over all light paths that any scene could produce, with a shortest path as witness.
+// Proofs about expressions, over all light paths that any scene could produce, with a shortest
+// path as witness.
 //
-// The infinitely many possible events fall into few classes, since expressions name few labels: `abstract_events` lists
-// one event of each. Proofs then walk the product of two automata, made state by state as the walk reaches them, so that
-// no large automaton is ever built. Everything here may throw InputError (a limit-lpe-* code).
+// The infinitely many possible events fall into few classes, since expressions name few labels:
+// `abstract_events` lists one event of each. Proofs then walk the product of two automata, made
+// state by state as the walk reaches them, so that no large automaton is ever built. Everything
+// here may throw InputError (a limit-lpe-* code).
 #pragma once
 
 #include <cstddef>
@@ -18,12 +20,14 @@
 
 namespace lightsieve::lpe {
 
-/// One event of each class that these expressions can tell apart in any scene, unlabelled ones first.
+/// One event of each class that these expressions can tell apart in any scene, unlabelled ones
+/// first.
 ///
-/// A light is in one group, a background in one or none; other events carry up to two of the labels (a lobe label and an
-/// object label, which is never coat, sheen, hair or default). A label may serve as all of these: a proof for more paths
-/// than a scene has also holds for the scene's.
-[[nodiscard]] std::vector<Event> abstract_events(std::span<const Expr> exprs, const Limits& limits = {});
+/// A light is in one group, a background in one or none; other events carry up to two of the
+/// labels (a lobe label and an object label, which is never coat, sheen, hair or default). A label
+/// may serve as all of these: a proof for more paths than a scene has also holds for the scene's.
+[[nodiscard]] std::vector<Event> abstract_events(std::span<const Expr> exprs,
+                                                 const Limits& limits = {});
 
 /// A shortest path that the expression takes; nothing if it takes none.
 [[nodiscard]] std::optional<Path> shortest_path(const Expr& expr, const Limits& limits = {});

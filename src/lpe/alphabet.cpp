@@ -38,7 +38,9 @@ Alphabet::Alphabet(std::span<const Expr> exprs, std::span<const Event> events) {
 
     // An event's signature: its category, then one bit for each test's answer.
     const Event camera{};
-    const auto event_at = [&](std::size_t i) -> const Event& { return i == 0 ? camera : events[i - 1]; };
+    const auto event_at = [&](std::size_t i) -> const Event& {
+        return i == 0 ? camera : events[i - 1];
+    };
     Interner signatures;
     std::vector<std::uint32_t> signature_of(events.size() + 1);
     std::vector<std::uint32_t> words;

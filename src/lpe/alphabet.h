@@ -1,8 +1,9 @@
 // Equivalence classes of events: the letters that automata are made over.
 //
-// A scene has hundreds of events (every lobe with its labels, every light group), but expressions tell few of them apart.
-// Two events that every test in every expression answers alike are one class, so tables stay small and a step costs the
-// same however many lights and labels there are. Light and probes, scattering and terminal events are never in one class.
+// A scene has hundreds of events (every lobe with its labels, every light group), but expressions
+// tell few of them apart. Two events that every test in every expression answers alike are one
+// class, so tables stay small and a step costs the same however many lights and labels there are.
+// Light and probes, scattering and terminal events are never in one class.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,8 @@ class Alphabet {
     static constexpr EventClass kCamera = 0;
     static constexpr EventClass kFirstScatter = 1;
 
-    /// Classes of the camera event and of `events`, as the tests in `exprs` (nulls are skipped) tell them apart.
+    /// Classes of the camera event and of `events`, as the tests in `exprs` (nulls are skipped)
+    /// tell them apart.
     Alphabet(std::span<const Expr> exprs, std::span<const Event> events);
 
     [[nodiscard]] std::size_t n_classes() const { return examples_.size(); }

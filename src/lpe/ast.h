@@ -1,9 +1,11 @@
-// An expression as it was written: a tree of four kinds of node.
+// An expression as it was written: tests of single events, put together by sequences,
+// alternatives and repeats.
 //
-// Nodes are immutable and shared. Later stages only read them: print writes them back to text, lint looks for mistakes,
-// term.h lowers them to what automata are made of. Every node remembers where it stood, so that a stage that finds
-// something wrong can point at it; places do not take part in equality.
-// The meaning of a single event's test (which events `D`, `'coat'` or `[^LO]` take) is in predicate.h.
+// Nodes are immutable and shared. Later stages only read them: print writes them back to text,
+// lint looks for mistakes, term.h lowers them to what automata are made of. Every node remembers
+// where it stood, so that a stage that finds something wrong can point at it; places do not take
+// part in equality. The meaning of a single event's test (which events `D`, `'coat'` or `[^LO]`
+// take) is in predicate.h.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +20,8 @@
 namespace lightsieve::lpe {
 
 struct Node;
-/// Shared, because one expression is wanted by many AOVs (one for each light group) and outlives the parser.
-/// Null stands for an expression that could not be read: it takes no path.
+/// Shared, because one expression is wanted by many AOVs (one for each light group) and outlives
+/// the parser. Null stands for an expression that could not be read: it takes no path.
 using Expr = std::shared_ptr<const Node>;
 
 /// A test of the kind or of the lobe inside `<..>`.
@@ -40,17 +42,19 @@ struct LetterTest {
 /// A test of an event's labels inside `<..>`.
 struct LabelTest {
     enum class Form : std::uint8_t {
-        Any,      ///< `.`: always holds
-        One,      ///< `'a'`: carries a
-        OneOf,    ///< `['a''b']`: carries one of them
-        NoneOf,   ///< `[^'a''b']`: carries none of them
+        Any,     ///< `.`: always holds
+        One,     ///< `'a'`: carries a
+        OneOf,   ///< `['a''b']`: carries one of them
+        NoneOf,  ///< `[^'a''b']`: carries none of them
     };
     Form form = Form::Any;
     std::vector<std::string> labels{};  ///< as written
     SourceSpan where{};
 
     /// Places do not count.
-    friend bool operator==(const LabelTest& a, const LabelTest& b) { return a.form == b.form && a.labels == b.labels; }
+    friend bool operator==(const LabelTest& a, const LabelTest& b) {
+        return a.form == b.form && a.labels == b.labels;
+    }
 };
 
 /// One of the letters C D S R T V L O B A.
@@ -113,14 +117,17 @@ struct Node {
 template <class Visit>
 void for_each_node(const Node& node, const Visit& visit) {
     visit(node);
-    for (const Expr& child : children(node)) for_each_node(*child, visit);
+    for (const Expr& child : children(node))
+        for_each_node(*child, visit);
 }
 
-/// Calls `visit(test)` for every test of a single event, left to right; `[..]` is one test, not its items.
+/// Calls `visit(test)` for every test of a single event, left to right; `[..]` is one test, not
+/// its items.
 template <class Visit>
 void for_each_event_test(const Node& node, const Visit& visit) {
     if (is_event_test(node)) return visit(node);
-    for (const Expr& child : children(node)) for_each_event_test(*child, visit);
+    for (const Expr& child : children(node))
+        for_each_event_test(*child, visit);
 }
 
 /// An expression with its name, as options.light_path_expressions defines it.

@@ -24,7 +24,8 @@ TEST(Interner, EqualRunsGetTheSameNumber) {
     std::mt19937 random(3);
     for (int i = 0; i < 5000; ++i) {
         std::vector<std::uint32_t> run(random() % 5);
-        for (std::uint32_t& word : run) word = static_cast<std::uint32_t>(random() % 6);
+        for (std::uint32_t& word : run)
+            word = static_cast<std::uint32_t>(random() % 6);
         const bool is_new = runs.insert(run).second;
         const std::uint32_t id = interner.intern(run);
         ASSERT_EQ(is_new, id + 1 == runs.size() && interner.size() == runs.size() && is_new);
@@ -44,12 +45,12 @@ TEST(Alphabet, OneClassForEventsThatNoTestTellsApart) {
     const auto same = [&](std::size_t a, std::size_t b) {
         return alphabet.class_of(a) == alphabet.class_of(b);
     };
-    EXPECT_TRUE(same(0, 1));   // RD TD'skin'
-    EXPECT_TRUE(same(2, 5));   // RS V
-    EXPECT_FALSE(same(2, 6));  // RS RS'coat'
-    EXPECT_TRUE(same(7, 8));   // L L'key'
-    EXPECT_TRUE(same(9, 10));  // O B
-    EXPECT_FALSE(same(9, 11)); // O A
+    EXPECT_TRUE(same(0, 1));    // RD TD'skin'
+    EXPECT_TRUE(same(2, 5));    // RS V
+    EXPECT_FALSE(same(2, 6));   // RS RS'coat'
+    EXPECT_TRUE(same(7, 8));    // L L'key'
+    EXPECT_TRUE(same(9, 10));   // O B
+    EXPECT_FALSE(same(9, 11));  // O A
     EXPECT_EQ(alphabet.example(Alphabet::kCamera).kind, EventKind::Camera);
     EXPECT_TRUE(alphabet.is_light(alphabet.class_of(9)));
     EXPECT_FALSE(alphabet.is_light(alphabet.class_of(11)));
@@ -103,7 +104,8 @@ TEST(Minimise, DumpsOfSmallAutomata) {
               "0: 0 0 output 0\n");
 }
 
-/// Myhill and Nerode by brute force: pairs that differ now, or after one step lead to pairs that differ.
+/// Myhill and Nerode by brute force: pairs that differ now, or after one step lead to pairs that
+/// differ.
 std::size_t n_distinguishable(const Dfa& dfa) {
     const std::size_t n = dfa.n_states();
     std::vector<std::vector<bool>> differ(n, std::vector<bool>(n, false));
@@ -113,7 +115,8 @@ std::size_t n_distinguishable(const Dfa& dfa) {
             for (std::size_t b = 0; b < n; ++b) {
                 bool now = dfa.output[a] != dfa.output[b];
                 for (std::size_t c = 0; c < dfa.n_classes; ++c)
-                    now = now || differ[dfa.next[a * dfa.n_classes + c]][dfa.next[b * dfa.n_classes + c]];
+                    now = now ||
+                          differ[dfa.next[a * dfa.n_classes + c]][dfa.next[b * dfa.n_classes + c]];
                 changed = changed || now != differ[a][b];
                 differ[a][b] = differ[a][b] || now;
             }
@@ -121,7 +124,8 @@ std::size_t n_distinguishable(const Dfa& dfa) {
     std::size_t count = 0;
     for (std::size_t a = 0; a < n; ++a) {
         bool first = true;
-        for (std::size_t b = 0; b < a; ++b) first = first && differ[a][b];
+        for (std::size_t b = 0; b < a; ++b)
+            first = first && differ[a][b];
         count += first ? 1 : 0;
     }
     return count;
@@ -129,7 +133,8 @@ std::size_t n_distinguishable(const Dfa& dfa) {
 
 TEST(Minimise, FindsTheSmallestAndChangesNothingTwice) {
     std::mt19937 random(9);
-    const std::vector<Event> events = must_events("RD RD'a' RS'coat' TD TS'b' V L L'key' O'a' B A");
+    const std::vector<Event> events =
+        must_events("RD RD'a' RS'coat' TD TS'b' V L L'key' O'a' B A");
     std::size_t n_merged = 0;
     for (int i = 0; i < 200; ++i) {
         const std::vector<Expr> exprs{testing::random_light_expression(random, 12),

@@ -17,34 +17,47 @@ constexpr std::array kBuiltins{
     Builtin{"RGBA", "C.*", "", "all light: the beauty", ""},
     Builtin{"direct", "C[DSV]L", "", "direct light from all surfaces and volumes", ""},
     Builtin{"indirect", "C[DSV][DSVOB].*", "", "indirect light from all surfaces and volumes", ""},
-    Builtin{"emission", "C[LO]", "", "lights and emissive objects seen directly by the camera", "emission"},
+    Builtin{"emission", "C[LO]", "", "lights and emissive objects seen directly by the camera",
+            "emission"},
     Builtin{"background", "CB", "", "the background seen directly by the camera", "background"},
     Builtin{"diffuse", "C<RD>.*", "", "diffuse reflection", "diffuse"},
-    Builtin{"specular", kSpecular, "C<RS[^'coat''sheen']>.*", "specular reflection without coat", "specular"},
+    Builtin{"specular", kSpecular, "C<RS[^'coat''sheen']>.*", "specular reflection without coat",
+            "specular"},
     Builtin{"coat", "C<RS'coat'>.*", "", "coat reflection", "coat"},
     Builtin{"transmission", "C<TS>.*", "", "specular transmission", "transmission"},
     Builtin{"sss", "C<TD>.*", "", "subsurface scattering and diffuse transmission", "sss"},
     Builtin{"volume", "CV.*", "", "volume scattering", "volume"},
     Builtin{"albedo", "C[DSV]A", "", "albedo (reflectivity) at the first hit", ""},
-    Builtin{"denoise_albedo", "((C<TD>A) (CVA) (C<RD>A))", "", "albedo of diffuse lobes and volumes, for denoisers", ""},
+    Builtin{"denoise_albedo", "((C<TD>A) (CVA) (C<RD>A))", "",
+            "albedo of diffuse lobes and volumes, for denoisers", ""},
     Builtin{"diffuse_direct", "C<RD>L", "", "diffuse reflection, direct light", "diffuse"},
-    Builtin{"diffuse_indirect", "C<RD>[DSVOB].*", "", "diffuse reflection, indirect light", "diffuse"},
+    Builtin{"diffuse_indirect", "C<RD>[DSVOB].*", "", "diffuse reflection, indirect light",
+            "diffuse"},
     Builtin{"diffuse_albedo", "C<RD>A", "", "diffuse albedo", "diffuse"},
-    Builtin{"specular_direct", "C<RS[^'coat']>L", "C<RS[^'coat''sheen']>L", "specular reflection, direct light", "specular"},
-    Builtin{"specular_indirect", "C<RS[^'coat']>[DSVOB].*", "C<RS[^'coat''sheen']>[DSVOB].*", "specular reflection, indirect light", "specular"},
-    Builtin{"specular_albedo", "C<RS[^'coat']>A", "C<RS[^'coat''sheen']>A", "specular albedo", "specular"},
+    Builtin{"specular_direct", "C<RS[^'coat']>L", "C<RS[^'coat''sheen']>L",
+            "specular reflection, direct light", "specular"},
+    Builtin{"specular_indirect", "C<RS[^'coat']>[DSVOB].*", "C<RS[^'coat''sheen']>[DSVOB].*",
+            "specular reflection, indirect light", "specular"},
+    Builtin{"specular_albedo", "C<RS[^'coat']>A", "C<RS[^'coat''sheen']>A", "specular albedo",
+            "specular"},
     Builtin{"coat_direct", "C<RS'coat'>L", "", "coat reflection, direct light", "coat"},
-    Builtin{"coat_indirect", "C<RS'coat'>[DSVOB].*", "", "coat reflection, indirect light", "coat"},
+    Builtin{"coat_indirect", "C<RS'coat'>[DSVOB].*", "", "coat reflection, indirect light",
+            "coat"},
     Builtin{"coat_albedo", "C<RS'coat'>A", "", "coat albedo", "coat"},
     Builtin{"sheen", "C<RS'sheen'>.*", "", "sheen reflection", "sheen"},
-    Builtin{"transmission_direct", "C<TS>L", "", "specular transmission, direct light", "transmission"},
-    Builtin{"transmission_indirect", "C<TS>[DSVOB].*", "", "specular transmission, indirect light", "transmission"},
+    Builtin{"transmission_direct", "C<TS>L", "", "specular transmission, direct light",
+            "transmission"},
+    Builtin{"transmission_indirect", "C<TS>[DSVOB].*", "", "specular transmission, indirect light",
+            "transmission"},
     Builtin{"transmission_albedo", "C<TS>A", "", "transmission albedo", "transmission"},
     Builtin{"sheen_direct", "C<RS'sheen'>L", "", "sheen reflection, direct light", "sheen"},
-    Builtin{"sheen_indirect", "C<RS'sheen'>[DSVOB].*", "", "sheen reflection, indirect light", "sheen"},
+    Builtin{"sheen_indirect", "C<RS'sheen'>[DSVOB].*", "", "sheen reflection, indirect light",
+            "sheen"},
     Builtin{"sheen_albedo", "C<RS'sheen'>A", "", "sheen albedo", "sheen"},
-    Builtin{"sss_direct", "C<TD>L", "", "subsurface scattering and diffuse transmission, direct light", "sss"},
-    Builtin{"sss_indirect", "C<TD>[DSVOB].*", "", "subsurface scattering and diffuse transmission, indirect light", "sss"},
+    Builtin{"sss_direct", "C<TD>L", "",
+            "subsurface scattering and diffuse transmission, direct light", "sss"},
+    Builtin{"sss_indirect", "C<TD>[DSVOB].*", "",
+            "subsurface scattering and diffuse transmission, indirect light", "sss"},
     Builtin{"sss_albedo", "C<TD>A", "", "subsurface and diffuse transmission albedo", "sss"},
     Builtin{"volume_direct", "CVL", "", "volume scattering, direct light", "volume"},
     Builtin{"volume_indirect", "CV[DSVOB].*", "", "volume scattering, indirect light", "volume"},
@@ -70,7 +83,8 @@ std::vector<std::vector<std::string_view>> additive_sets(BuiltinTable table) {
     };
     // Arnold 7 takes sheen out of specular.
     if (table == BuiltinTable::Arnold7)
-        for (std::size_t i = 1; i < sets.size(); ++i) sets[i].push_back("sheen");
+        for (std::size_t i = 1; i < sets.size(); ++i)
+            sets[i].push_back("sheen");
     return sets;
 }
 
@@ -84,8 +98,10 @@ ExpressionTable::ExpressionTable(BuiltinTable table) : table_(table) {
     Diagnostics diagnostics;
     for (const Builtin& row : kBuiltins) {
         const std::string_view text = row.expression_in(table);
-        Expr expr = parse(text, stand_alone(text, "<built-in " + std::string(row.name) + ">"), diagnostics);
-        entries_.emplace(row.name, Entry{{std::string(row.name), std::string(text), std::move(expr)}, false});
+        Expr expr = parse(text, stand_alone(text, "<built-in " + std::string(row.name) + ">"),
+                          diagnostics);
+        entries_.emplace(
+            row.name, Entry{{std::string(row.name), std::string(text), std::move(expr)}, false});
     }
     LIGHTSIEVE_ASSERT(diagnostics.items().empty(), diagnostics.render());
 }
@@ -96,7 +112,7 @@ void ExpressionTable::define(std::string_view definition, const SourceSpan& base
     in.skip_blanks();
     const std::size_t name_begin = in.position();
     const std::size_t name_end =
-        std::min(definition.find_first_of(" \t\r\n\v\f", name_begin), definition.size());
+        std::min(definition.find_first_of(kBlanks, name_begin), definition.size());
     in.move_to(name_end);
     in.skip_blanks();
     const std::size_t begin = in.position();
@@ -124,7 +140,8 @@ const NamedExpr* ExpressionTable::find(std::string_view name) const {
 
 std::vector<std::string> ExpressionTable::names() const {
     std::vector<std::string> names;
-    for (const auto& [name, entry] : entries_) names.push_back(name);
+    for (const auto& [name, entry] : entries_)
+        names.push_back(name);
     return names;
 }
 

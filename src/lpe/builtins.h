@@ -1,7 +1,8 @@
-// The built-in light path AOVs, as data, and the table of names that a scene's own expressions extend.
+// The built-in light path AOVs, as data, and the table of names that a scene's own expressions
+// extend.
 //
-// The reference page's table is the list; Arnold 7's differs in `specular` only, so a row holds both readings.
-// Adding a built-in is one row in builtins.cpp.
+// The reference page's table is the list; Arnold 7's differs in `specular` only, so a row holds
+// both readings. Adding a built-in is one row in builtins.cpp.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,9 @@ struct Builtin {
     std::string_view expression;  ///< as the reference page writes it
     std::string_view arnold7;     ///< the same in Arnold 7's table; empty: no difference
     std::string_view meaning;     ///< one line for people
-    std::string_view part;        ///< the part of the beauty that it belongs to (`specular` for `specular_direct`);
-                                  ///< AOVs of different parts get added up. Empty: it is a sum of parts
+    std::string_view
+        part;  ///< the part of the beauty that it belongs to (`specular` for `specular_direct`);
+               ///< AOVs of different parts get added up. Empty: it is a sum of parts
 
     [[nodiscard]] std::string_view expression_in(BuiltinTable table) const {
         return table == BuiltinTable::Arnold7 && !arnold7.empty() ? arnold7 : expression;
@@ -40,26 +42,32 @@ struct Builtin {
 /// The row of that name (`RGB` finds `RGBA`), or null.
 [[nodiscard]] const Builtin* find_builtin(std::string_view name);
 
-/// The sets of built-ins that the reference page says add up to the beauty; with sheen where the table needs it.
+/// The sets of built-ins that the reference page says add up to the beauty; with sheen where the
+/// table needs it.
 [[nodiscard]] std::vector<std::vector<std::string_view>> additive_sets(BuiltinTable table);
 
-/// `RGB` is another name of `RGBA`, also before a group suffix (`RGB_key`, `RGB_*`); other names are kept.
+/// `RGB` is another name of `RGBA`, also before a group suffix (`RGB_key`, `RGB_*`); other names
+/// are kept.
 [[nodiscard]] std::string canonical_name(std::string_view name);
 
-/// Every expression that an output can name: the custom ones first, then the built-ins they do not replace.
+/// Every expression that an output can name: the custom ones first, then the built-ins they do not
+/// replace.
 class ExpressionTable {
   public:
     explicit ExpressionTable(BuiltinTable table = BuiltinTable::Reference);
 
-    /// Adds one string of options.light_path_expressions, "name expression", split at the first white space.
+    /// Adds one string of options.light_path_expressions, "name expression", split at the first
+    /// white space.
     ///
     /// definition   the string
     /// base         where it stands, see `parse`
-    /// diagnostics  gets syntax errors, lints, a second definition of the name, a missing expression
+    /// diagnostics  gets syntax errors, lints, a second definition of the name, a missing
+    ///              expression
     /// An expression with an error is kept with a null tree: its AOV is black, not unknown.
     void define(std::string_view definition, const SourceSpan& base, Diagnostics& diagnostics);
 
-    /// The expression of that name (`RGB` finds `RGBA`), or null. The pointer lives until the next `define`.
+    /// The expression of that name (`RGB` finds `RGBA`), or null. The pointer lives until the next
+    /// `define`.
     [[nodiscard]] const NamedExpr* find(std::string_view name) const;
     /// All names, sorted.
     [[nodiscard]] std::vector<std::string> names() const;

@@ -1,4 +1,5 @@
-// The corpus of verdicts in tests/lpe/corpus, asked of every engine. tests/lpe/corpus/README.md says how to add a row.
+// The corpus of verdicts in tests/lpe/corpus, asked of every engine. tests/lpe/corpus/README.md
+// says how to add a row.
 #include <gtest/gtest.h>
 
 #include <algorithm>

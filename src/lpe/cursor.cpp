@@ -11,9 +11,6 @@
 namespace lightsieve::lpe {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n\v\f";
-constexpr std::string_view kEventLetters = "CDSRTVLOBA";
-
 bool is_small(char c) { return c >= 'a' && c <= 'z'; }
 bool is_word(char c) {
     return is_small(c) || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -26,20 +23,44 @@ struct LookAlike {
 };
 constexpr std::array kLookAlikes{
     // Greek
-    LookAlike{0x0391, 'A'}, LookAlike{0x0392, 'B'}, LookAlike{0x039F, 'O'}, LookAlike{0x03A4, 'T'},
+    LookAlike{0x0391, 'A'},
+    LookAlike{0x0392, 'B'},
+    LookAlike{0x039F, 'O'},
+    LookAlike{0x03A4, 'T'},
     LookAlike{0x03F9, 'C'},
     // Cyrillic
-    LookAlike{0x0405, 'S'}, LookAlike{0x0410, 'A'}, LookAlike{0x0412, 'B'}, LookAlike{0x041E, 'O'},
-    LookAlike{0x0421, 'C'}, LookAlike{0x0422, 'T'}, LookAlike{0x0441, 'c'}, LookAlike{0x0474, 'V'},
+    LookAlike{0x0405, 'S'},
+    LookAlike{0x0410, 'A'},
+    LookAlike{0x0412, 'B'},
+    LookAlike{0x041E, 'O'},
+    LookAlike{0x0421, 'C'},
+    LookAlike{0x0422, 'T'},
+    LookAlike{0x0441, 'c'},
+    LookAlike{0x0474, 'V'},
     // Armenian
-    LookAlike{0x054D, 'S'}, LookAlike{0x0555, 'O'}, LookAlike{0x053C, 'L'},
+    LookAlike{0x054D, 'S'},
+    LookAlike{0x0555, 'O'},
+    LookAlike{0x053C, 'L'},
     // Cherokee
-    LookAlike{0x13A1, 'R'}, LookAlike{0x13A2, 'T'}, LookAlike{0x13DA, 'S'}, LookAlike{0x13D9, 'V'},
-    LookAlike{0x13DF, 'C'}, LookAlike{0x13A0, 'D'}, LookAlike{0x13DE, 'L'}, LookAlike{0x13AA, 'A'},
+    LookAlike{0x13A1, 'R'},
+    LookAlike{0x13A2, 'T'},
+    LookAlike{0x13DA, 'S'},
+    LookAlike{0x13D9, 'V'},
+    LookAlike{0x13DF, 'C'},
+    LookAlike{0x13A0, 'D'},
+    LookAlike{0x13DE, 'L'},
+    LookAlike{0x13AA, 'A'},
     // punctuation that word processors and web pages put in
-    LookAlike{0x00A0, ' '}, LookAlike{0x2018, '\''}, LookAlike{0x2019, '\''},
-    LookAlike{0x2032, '\''}, LookAlike{0x02BC, '\''}, LookAlike{0x2217, '*'},
-    LookAlike{0x2039, '<'}, LookAlike{0x203A, '>'}, LookAlike{0x2024, '.'}, LookAlike{0x2223, '|'},
+    LookAlike{0x00A0, ' '},
+    LookAlike{0x2018, '\''},
+    LookAlike{0x2019, '\''},
+    LookAlike{0x2032, '\''},
+    LookAlike{0x02BC, '\''},
+    LookAlike{0x2217, '*'},
+    LookAlike{0x2039, '<'},
+    LookAlike{0x203A, '>'},
+    LookAlike{0x2024, '.'},
+    LookAlike{0x2223, '|'},
 };
 
 /// The character that `code_point` looks like, or '\0'.
@@ -113,7 +134,8 @@ bool Cursor::take_if(char c) {
 
 bool Cursor::skip_blanks() {
     const std::size_t before = position_;
-    while (peek_is_one_of(kBlanks)) ++position_;
+    while (peek_is_one_of(kBlanks))
+        ++position_;
     return position_ > before;
 }
 
@@ -152,7 +174,8 @@ std::string Cursor::read_label() {
     const std::size_t end = text_.find('\'', begin + 1);
     if (end == std::string_view::npos) {
         std::size_t word_end = begin + 1;
-        while (word_end < text_.size() && is_word(text_[word_end])) ++word_end;
+        while (word_end < text_.size() && is_word(text_[word_end]))
+            ++word_end;
         const std::string word(text_.substr(begin + 1, word_end - begin - 1));
         error(Code::LpeUnclosed, "a quote that never ends", begin, begin + 1,
               "close the label: '" + (word.empty() ? "coat" : word) + "'");
@@ -174,7 +197,8 @@ void Cursor::reject_character() {
     if (length > 1) {
         const std::string_view character = text_.substr(begin, length);
         const std::uint32_t code_point = decode(character);
-        const std::string name = in_quotes(character) + " (" + hexadecimal(code_point, "U+%04X") + ")";
+        const std::string name =
+            in_quotes(character) + " (" + hexadecimal(code_point, "U+%04X") + ")";
         const char meant = look_alike(code_point);
         if (meant != '\0')
             return error(Code::LpeLookAlike, name + " only looks like " + in_quotes({&meant, 1}),
@@ -184,8 +208,7 @@ void Cursor::reject_character() {
     }
     if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7F)
         return error(Code::LpeCharacter,
-                     "unexpected byte " +
-                         hexadecimal(static_cast<unsigned char>(c), "0x%02x"),
+                     "unexpected byte " + hexadecimal(static_cast<unsigned char>(c), "0x%02x"),
                      begin, position_, "expressions are UTF-8 text");
     if (c == ')' || c == ']' || c == '}' || c == '>')
         return error(Code::LpeUnclosed, in_quotes({&c, 1}) + " closes nothing", begin, position_,
@@ -195,9 +218,11 @@ void Cursor::reject_character() {
                      position_, punctuation_hint(c));
     // A run of small letters is one mistake, not one for each letter.
     if (is_small(c))
-        while (!at_end() && is_word(peek()) && !(peek() >= 'A' && peek() <= 'Z')) ++position_;
+        while (!at_end() && is_word(peek()) && !(peek() >= 'A' && peek() <= 'Z'))
+            ++position_;
     const std::string_view letters = text_.substr(begin, position_ - begin);
-    error(Code::LpeEvent, "no event " + in_quotes(letters), begin, position_, letter_hint(letters));
+    error(Code::LpeEvent, "no event " + in_quotes(letters), begin, position_,
+          letter_hint(letters));
 }
 
 }  // namespace lightsieve::lpe

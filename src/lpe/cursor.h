@@ -1,4 +1,5 @@
-// A position in an expression's text, and reports about places in it. Shared by the readers of expressions and paths.
+// A position in an expression's text, and reports about places in it. Shared by the readers of
+// expressions and paths.
 //
 // Internal to the parsers.
 #pragma once
@@ -10,6 +11,11 @@
 #include "core/diagnostics.h"
 
 namespace lightsieve::lpe {
+
+/// White space: free everywhere outside of labels.
+inline constexpr std::string_view kBlanks = " \t\r\n\v\f";
+/// The letters that stand for an event.
+inline constexpr std::string_view kEventLetters = "CDSRTVLOBA";
 
 class Cursor {
   public:
@@ -32,7 +38,8 @@ class Cursor {
 
     [[nodiscard]] std::size_t position() const { return position_; }
     void move_to(std::size_t position) { position_ = position; }
-    /// Gives up on the rest of the text: what is missing there follows from an error already reported.
+    /// Gives up on the rest of the text: what is missing there follows from an error already
+    /// reported.
     void abandon() {
         position_ = text_.size();
         abandoned_ = true;
@@ -53,11 +60,13 @@ class Cursor {
               std::string hint = {});
     [[nodiscard]] std::size_t n_errors() const { return n_errors_; }
 
-    /// Reads a label, the quote being next. Returns the text between the quotes, or "" after an error.
+    /// Reads a label, the quote being next. Returns the text between the quotes, or "" after an
+    /// error.
     std::string read_label();
     /// Skips one character (UTF-8).
     void skip_character() { position_ += character_length(); }
-    /// Reports and skips the character (or run of small letters) that is next and means nothing here.
+    /// Reports and skips the character (or run of small letters) that is next and means nothing
+    /// here.
     void reject_character();
 
   private:
@@ -73,7 +82,8 @@ class Cursor {
 /// `"x"`, for messages.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-/// What to do about a letter that is no event: G and s of OSL, E, small letters, labels without quotes.
+/// What to do about a letter that is no event: G and s of OSL, E, small letters, labels without
+/// quotes.
 [[nodiscard]] std::string letter_hint(std::string_view letters);
 
 }  // namespace lightsieve::lpe

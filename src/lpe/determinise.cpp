@@ -30,10 +30,10 @@ class Construction {
         // New states are appended while the loop goes on; it ends when all have been stepped.
         for (std::uint32_t state = 0; state < vectors_.size(); ++state) {
             if (vectors_.size() > limits_.max_states)
-                throw OverBudget{Code::LimitLpeStates,
-                                 "needs more than " + std::to_string(limits_.max_states) +
-                                     " states",
-                                 "max_states"};
+                throw OverBudget{
+                    Code::LimitLpeStates,
+                    "needs more than " + std::to_string(limits_.max_states) + " states",
+                    "max_states"};
             for (std::size_t i = 0; i < alphabet_.n_scatter(); ++i)
                 out_.dfa.next.push_back(
                     step(state, Alphabet::kFirstScatter + static_cast<EventClass>(i)));

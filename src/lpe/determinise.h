@@ -1,8 +1,9 @@
-// A set of expressions to one deterministic automaton that says, at every end of a path, which of them take it.
+// A set of expressions to one deterministic automaton that says, at every end of a path, which of
+// them take it.
 //
-// A state is a vector with one derivative for each expression; stepping it steps all of them, and equal vectors are one
-// state. Only scattering events move between states: what a terminal event yields is a state's output.
-// Source: Owens, Reppy, Turon 2009, section 5 (regular vectors).
+// A state is a vector with one derivative for each expression; stepping it steps all of them, and
+// equal vectors are one state. Only scattering events move between states: what a terminal event
+// yields is a state's output. Source: Owens, Reppy, Turon 2009, section 5 (regular vectors).
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,8 @@ namespace lightsieve::lpe {
 
 /// A complete deterministic automaton with one output per state.
 struct Dfa {
-    std::size_t n_classes = 0;          ///< scattering classes; class c of the alphabet is column c - kFirstScatter
+    std::size_t n_classes =
+        0;  ///< scattering classes; class c of the alphabet is column c - kFirstScatter
     std::vector<std::uint32_t> next;    ///< next[state * n_classes + column]
     std::vector<std::uint32_t> output;  ///< per state; output 0 is "no path ends here"
     std::uint32_t start = 0;            ///< the state after the camera event
@@ -31,11 +33,12 @@ struct Dfa {
     }
 };
 
-/// An automaton whose outputs say which expressions take the path that ends with each terminal class.
+/// An automaton whose outputs say which expressions take the path that ends with each terminal
+/// class.
 struct Determinised {
     Dfa dfa;
-    Interner outputs;        ///< per output: a number of `sets` for each terminal class
-    Interner sets;           ///< indices of expressions, ascending; set 0 is empty
+    Interner outputs;         ///< per output: a number of `sets` for each terminal class
+    Interner sets;            ///< indices of expressions, ascending; set 0 is empty
     std::size_t n_steps = 0;  ///< derivative steps that it took
 
     /// Does expression `expr` take the path that ends in `state` with a terminal of class c?

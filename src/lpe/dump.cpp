@@ -28,7 +28,8 @@ void dump_node(const Node& node, std::size_t indent, std::string& out) {
         return;
     }
     out += "\n";
-    for (const Expr& child : children(node)) dump_node(*child, indent + 1, out);
+    for (const Expr& child : children(node))
+        dump_node(*child, indent + 1, out);
 }
 
 std::string aovs_text(const Program& program, AtomId atom) {
@@ -38,7 +39,8 @@ std::string aovs_text(const Program& program, AtomId atom) {
     return "{" + out + "}";
 }
 
-void dump_state(const Program& program, const Automaton& automaton, State state, std::string& out) {
+void dump_state(const Program& program, const Automaton& automaton, State state,
+                std::string& out) {
     out += "  state " + std::to_string(automaton.index(state));
     if (state == automaton.start()) out += " start";
     if (automaton.live_light(state)) out += " light";

@@ -1,4 +1,5 @@
-// Every intermediate as text, for people who look for a mistake and for tests that compare whole results.
+// Every intermediate as text, for people who look for a mistake and for tests that compare whole
+// results.
 #pragma once
 
 #include <string>
@@ -13,8 +14,8 @@ namespace lightsieve::lpe {
 [[nodiscard]] std::string dump(const Expr& expr);
 /// The transitions and output numbers, one state a line.
 [[nodiscard]] std::string dump(const Dfa& dfa);
-/// Classes with an example event each, then for every automaton its states: where each class leads, what each terminal
-/// yields, what is still alive.
+/// Classes with an example event each, then for every automaton its states: where each class
+/// leads, what each terminal yields, what is still alive.
 [[nodiscard]] std::string dump(const Program& program);
 
 }  // namespace lightsieve::lpe

@@ -28,7 +28,8 @@ TEST(Exhaustive, AllExpressionsOfFourNodesOnAllPathsOfFourEvents) {
             for (const Expr& e : {expr, behind}) {
                 ++n_expressions;
                 const testing::Engines engines(e, events);
-                for (const Path& path : paths) n_taken += engines.agreed(path) ? 1 : 0;
+                for (const Path& path : paths)
+                    n_taken += engines.agreed(path) ? 1 : 0;
             }
         }
     }

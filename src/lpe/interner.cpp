@@ -43,7 +43,8 @@ void Interner::grow() {
     const std::size_t mask = slots_.size() - 1;
     for (std::uint32_t id = 0; id < size(); ++id) {
         std::size_t slot = hashes_[id] & mask;
-        while (slots_[slot] != kFree) slot = (slot + 1) & mask;
+        while (slots_[slot] != kFree)
+            slot = (slot + 1) & mask;
         slots_[slot] = id;
     }
 }

@@ -1,7 +1,8 @@
 // Gives equal runs of integers the same small number.
 //
-// Derived expressions, states (vectors of expressions), sets of classes and of AOVs are all runs of 32-bit words that are
-// met again and again; stored once and numbered from 0 they compare in one instruction and index arrays.
+// Derived expressions, states (vectors of expressions), sets of classes and of AOVs are all runs
+// of 32-bit words that are met again and again; stored once and numbered from 0 they compare in
+// one instruction and index arrays.
 #pragma once
 
 #include <cstddef>

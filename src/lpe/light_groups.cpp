@@ -25,7 +25,10 @@ struct Split {
 class Resolver {
   public:
     Resolver(const OutputName& output, const AovNames& names, Diagnostics& diagnostics)
-        : output_(output), names_(names), diagnostics_(diagnostics), name_(canonical_name(output.name)) {
+        : output_(output),
+          names_(names),
+          diagnostics_(diagnostics),
+          name_(canonical_name(output.name)) {
         for (const std::string& group : names.groups)
             if (!group.empty() && group != kDefaultGroup) groups_.insert(group);
     }
@@ -48,8 +51,9 @@ class Resolver {
         std::vector<std::string> known = names_.expressions.names();
         known.insert(known.end(), names_.others.begin(), names_.others.end());
         const std::string guess = did_you_mean(output_.name, known);
-        diagnostics_.error(Code::LpeUnknownAov, "no AOV " + in_quotes(output_.name), output_.where,
-                           guess.empty() ? "`lightsieve lpe list` lists the built-in ones" : guess);
+        diagnostics_.error(
+            Code::LpeUnknownAov, "no AOV " + in_quotes(output_.name), output_.where,
+            guess.empty() ? "`lightsieve lpe list` lists the built-in ones" : guess);
         return {};
     }
 
@@ -60,7 +64,8 @@ class Resolver {
 
     [[nodiscard]] static LpeLayer layer(const NamedExpr& named, std::string layer_name,
                                         GroupSelect select, std::string group = {}) {
-        return {std::move(layer_name), named.name, named.text, named.expr, select, std::move(group)};
+        return {std::move(layer_name), named.name, named.text, named.expr, select,
+                std::move(group)};
     }
 
     /// A group of an AOV that ends at no light is an error.
@@ -83,7 +88,8 @@ class Resolver {
         return resolved;
     }
 
-    /// Among the splits at a group that exists, the one with the longest expression; else the longest of all.
+    /// Among the splits at a group that exists, the one with the longest expression; else the
+    /// longest of all.
     [[nodiscard]] std::optional<Split> best_split() const {
         std::optional<Split> longest;
         for (std::size_t at = name_.rfind('_'); at != std::string::npos && at > 0;
@@ -112,12 +118,13 @@ class Resolver {
         std::string hint = did_you_mean(split.group, {groups_.begin(), groups_.end()});
         if (!hint.empty()) hint += " ";
         hint += "the scene's groups are ";
-        for (const std::string& group : groups_) hint += in_quotes(group) + ", ";
+        for (const std::string& group : groups_)
+            hint += in_quotes(group) + ", ";
         hint += in_quotes(kDefaultGroup);
-        diagnostics_.warning(Code::LpeGroupUnknown,
-                             in_quotes(output_.name) + " is black: no light is in group " +
-                                 in_quotes(split.group),
-                             output_.where, std::move(hint));
+        diagnostics_.warning(
+            Code::LpeGroupUnknown,
+            in_quotes(output_.name) + " is black: no light is in group " + in_quotes(split.group),
+            output_.where, std::move(hint));
     }
 
     const OutputName& output_;
@@ -147,17 +154,19 @@ void check_layer_names(std::span<const OutputName> outputs,
         const std::size_t other = entry->second;
         if (is_new || (!is_wildcard(i) && !is_wildcard(other))) return;
         const std::size_t wild = is_wildcard(i) ? i : other;
-        diagnostics.add({Code::LpeLayerName,
-                         in_quotes(outputs[wild].name) + " makes a second layer " + in_quotes(layer),
-                         outputs[wild].where,
-                         "give it a layer name after the driver",
-                         {{"the other is output " + in_quotes(outputs[wild == i ? other : i].name),
-                           outputs[wild == i ? other : i].where}},
-                         Severity::Error});
+        diagnostics.add(
+            {Code::LpeLayerName,
+             in_quotes(outputs[wild].name) + " makes a second layer " + in_quotes(layer),
+             outputs[wild].where,
+             "give it a layer name after the driver",
+             {{"the other is output " + in_quotes(outputs[wild == i ? other : i].name),
+               outputs[wild == i ? other : i].where}},
+             Severity::Error});
     };
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         if (resolved[i].kind == ResolvedOutput::Kind::Other) add(i, name_of_other(i));
-        for (const LpeLayer& layer : resolved[i].layers) add(i, layer.layer);
+        for (const LpeLayer& layer : resolved[i].layers)
+            add(i, layer.layer);
     }
 }
 

@@ -15,7 +15,8 @@
 namespace lightsieve::lpe {
 namespace {
 
-/// Labels that shaders of our own give, whether or not a scene has them: excluding them is no mistake.
+/// Labels that shaders of our own give, whether or not a scene has them: excluding them is no
+/// mistake.
 constexpr std::array<std::string_view, 3> kWellKnownLabels{"coat", "sheen", "hair"};
 
 std::string prefix(std::string_view aov_name) {
@@ -122,7 +123,8 @@ struct SceneLabels {
 
     explicit SceneLabels(std::span<const Event> events) {
         for (const Event& event : events) {
-            const bool light = event.kind == EventKind::Light || event.kind == EventKind::Background;
+            const bool light =
+                event.kind == EventKind::Light || event.kind == EventKind::Background;
             (light ? groups : lobes).insert(event.labels.begin(), event.labels.end());
         }
         groups.insert("default");
@@ -135,7 +137,8 @@ std::string nearest_hint(const std::string& label, const std::set<std::string>& 
     if (!guess.empty()) return guess;
     if (names.empty()) return std::string("nothing in the scene has a ") + what;
     std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + in_quotes(name);
+    for (const std::string& name : names)
+        list += (list.empty() ? "" : ", ") + in_quotes(name);
     return std::string("the scene has the ") + what + "s " + list;
 }
 
@@ -151,9 +154,10 @@ class SceneLint {
         const Node kinds{Angle{angle->kind, {}, {}}, {}};
         const bool light =
             takes_kind(kinds, EventKind::Light) || takes_kind(kinds, EventKind::Background);
-        const bool lobe =
-            takes_kind(kinds, EventKind::Reflection) || takes_kind(kinds, EventKind::Transmission) ||
-            takes_kind(kinds, EventKind::Volume) || takes_kind(kinds, EventKind::Object);
+        const bool lobe = takes_kind(kinds, EventKind::Reflection) ||
+                          takes_kind(kinds, EventKind::Transmission) ||
+                          takes_kind(kinds, EventKind::Volume) ||
+                          takes_kind(kinds, EventKind::Object);
         for (const LabelTest& test : angle->labels)
             for (const std::string& label : test.labels)
                 check_label(label, light, lobe, test.form == LabelTest::Form::NoneOf, test.where);
@@ -172,8 +176,8 @@ class SceneLint {
 
     void check_label(const std::string& label, bool light, bool lobe, bool negated,
                      const SourceSpan& where) {
-        const bool known = (light && labels_.groups.contains(label)) ||
-                           (lobe && labels_.lobes.contains(label));
+        const bool known =
+            (light && labels_.groups.contains(label)) || (lobe && labels_.lobes.contains(label));
         if (known) return;
         // Excluding what is not there is harmless, unless it looks like a slip.
         std::set<std::string> names = lobe ? labels_.lobes : std::set<std::string>{};
@@ -243,7 +247,8 @@ void lint_overlaps(std::span<const LintOutput> outputs, Diagnostics& diagnostics
     };
     within_budget([&] {
         for (std::size_t i = 0; i < outputs.size(); ++i)
-            for (std::size_t j = i + 1; j < outputs.size(); ++j) check(outputs[i], outputs[j]);
+            for (std::size_t j = i + 1; j < outputs.size(); ++j)
+                check(outputs[i], outputs[j]);
     });
 }
 

@@ -12,8 +12,9 @@
 
 namespace lightsieve::lpe {
 
-/// Does the expression take the path? Decided by the states of its automaton that the path goes through, made one by
-/// one, so that an expression whose whole automaton is over budget can be asked too.
+/// Does the expression take the path? Decided by the states of its automaton that the path goes
+/// through, made one by one, so that an expression whose whole automaton is over budget can be
+/// asked too.
 ///
 /// path     any events; what is no path (see `is_path`) is taken by no expression
 /// throws   InputError (limit) if even this exceeds a budget

@@ -13,11 +13,14 @@ using Index = std::uint32_t;
 class Inverse {
   public:
     explicit Inverse(const Dfa& dfa)
-        : n_states_(dfa.n_states()), begin_(dfa.n_classes * dfa.n_states() + 1, 0), from_(dfa.next.size()) {
+        : n_states_(dfa.n_states()),
+          begin_(dfa.n_classes * dfa.n_states() + 1, 0),
+          from_(dfa.next.size()) {
         const auto row = [&](std::size_t i) {
             return (i % dfa.n_classes) * n_states_ + dfa.next[i];
         };
-        for (std::size_t i = 0; i < dfa.next.size(); ++i) ++begin_[row(i) + 1];
+        for (std::size_t i = 0; i < dfa.next.size(); ++i)
+            ++begin_[row(i) + 1];
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
         std::vector<Index> end(begin_.begin(), begin_.end() - 1);
         for (std::size_t i = 0; i < dfa.next.size(); ++i)
@@ -36,7 +39,8 @@ class Inverse {
 /// A partition of 0..n-1 in blocks, each a run of one array, so that marking an element is a swap.
 class Partition {
   public:
-    explicit Partition(const std::vector<Index>& key) : elements_(key.size()), place_(key.size()), block_(key.size()) {
+    explicit Partition(const std::vector<Index>& key)
+        : elements_(key.size()), place_(key.size()), block_(key.size()) {
         std::iota(elements_.begin(), elements_.end(), 0);
         std::ranges::stable_sort(elements_, {}, [&](Index e) { return key[e]; });
         for (std::size_t i = 0; i < elements_.size(); ++i) {
@@ -49,11 +53,14 @@ class Partition {
     }
     [[nodiscard]] std::size_t n_blocks() const { return blocks_.size(); }
     [[nodiscard]] Index block_of(Index element) const { return block_[element]; }
-    [[nodiscard]] Index size(Index block) const { return blocks_[block].end - blocks_[block].begin; }
+    [[nodiscard]] Index size(Index block) const {
+        return blocks_[block].end - blocks_[block].begin;
+    }
     [[nodiscard]] std::span<const Index> elements(Index block) const {
         return std::span(elements_).subspan(blocks_[block].begin, size(block));
     }
-    /// Moves the element to the marked front of its block; returns true if it is the first one marked there.
+    /// Moves the element to the marked front of its block; returns true if it is the first one
+    /// marked there.
     bool mark(Index element) {
         Block& block = blocks_[block_[element]];
         const Index front = block.begin + block.n_marked;
@@ -63,7 +70,8 @@ class Partition {
         std::swap(place_[other], place_[element]);
         return block.n_marked++ == 0;
     }
-    /// Makes the marked elements a block of their own and unmarks them; returns it, or `block` if all were marked.
+    /// Makes the marked elements a block of their own and unmarks them; returns it, or `block` if
+    /// all were marked.
     Index split(Index block) {
         const Index n_marked = std::exchange(blocks_[block].n_marked, 0);
         if (n_marked == size(block)) return block;
@@ -71,7 +79,8 @@ class Partition {
         blocks_[block].begin += n_marked;
         blocks_.push_back({begin, begin + n_marked, 0});
         const auto made = static_cast<Index>(blocks_.size() - 1);
-        for (const Index element : elements(made)) block_[element] = made;
+        for (const Index element : elements(made))
+            block_[element] = made;
         return made;
     }
 

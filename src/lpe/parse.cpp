@@ -15,9 +15,9 @@ constexpr std::string_view kDigits = "0123456789";
 
 /// A recursive-descent parser, one method per rule of the grammar, in the grammar's order.
 ///
-/// A method that finds an error reports it, skips what is wrong and returns null; its caller goes on without that
-/// part. Any error makes the whole result null, so such parts are never looked at. Nesting is bounded, so the
-/// recursion is.
+/// A method that finds an error reports it, skips what is wrong and returns null; its caller goes
+/// on without that part. Any error makes the whole result null, so such parts are never looked at.
+/// Nesting is bounded, so the recursion is.
 class Parser {
   public:
     Parser(std::string_view text, const SourceSpan& base, Diagnostics& diagnostics,
@@ -93,7 +93,8 @@ Expr Parser::parse_alternation(bool in_parentheses) {
         const bool whole = alternatives.empty() && in_.peek() != '|';
         if (parts.empty() && in_.n_errors() == errors_before) reject_empty(whole, in_parentheses);
         if (whole && in_parentheses && blanks_make_alternatives(parts)) {
-            for (Part& part : parts) alternatives.push_back(std::move(part.expr));
+            for (Part& part : parts)
+                alternatives.push_back(std::move(part.expr));
             break;
         }
         alternatives.push_back(sequence_of(std::move(parts)));
@@ -206,13 +207,13 @@ std::optional<Repeat> Parser::parse_counts(std::size_t begin) {
     }
     const std::string written = in_quotes(in_.text(begin, in_.position()));
     if (!min)
-        return reject(Code::LpeQuantifier, written + " is no repeat",
-                      max ? "write {0," + std::to_string(*max) + "}"
-                          : "a repeat is {n}, {n,} or {n,m}");
+        return reject(
+            Code::LpeQuantifier, written + " is no repeat",
+            max ? "write {0," + std::to_string(*max) + "}" : "a repeat is {n}, {n,} or {n,m}");
     if (std::max(*min, max.value_or(0)) > kMaxRepeat)
-        return reject(Code::LimitLpeRepeat, "a repeat of more than " + std::to_string(kMaxRepeat),
-                      "the limit kMaxRepeat is " + std::to_string(kMaxRepeat) +
-                          "; any number is * or {n,}");
+        return reject(
+            Code::LimitLpeRepeat, "a repeat of more than " + std::to_string(kMaxRepeat),
+            "the limit kMaxRepeat is " + std::to_string(kMaxRepeat) + "; any number is * or {n,}");
     if (max && *max < *min)
         return reject(Code::LpeQuantifier, written + " ends before it starts",
                       "write {" + std::to_string(*max) + "," + std::to_string(*min) + "}");
@@ -266,8 +267,8 @@ void Parser::reject_empty(bool whole, bool in_parentheses) {
         in_.error(Code::LpeEmpty, "the expression is empty", begin, end, "all light is C.*");
 }
 
-/// The reference page writes alternatives as ((C<TD>A) (CVA)): a parenthesis that holds nothing but groups, every
-/// pair of them separated by blanks.
+/// The reference page writes alternatives as ((C<TD>A) (CVA)): a parenthesis that holds nothing
+/// but groups, every pair of them separated by blanks.
 bool Parser::blanks_make_alternatives(const std::vector<Part>& parts) {
     const auto is_group = [](const Part& part) { return part.is_group; };
     const auto is_repeated = [](const Part& part) { return part.has_quantifier; };
@@ -290,7 +291,8 @@ Expr Parser::sequence_of(std::vector<Part> parts) const {
     if (parts.size() == 1) return std::move(parts[0].expr);
     const std::size_t begin = parts.front().begin, end = parts.back().end;
     Sequence sequence;
-    for (Part& part : parts) sequence.parts.push_back(std::move(part.expr));
+    for (Part& part : parts)
+        sequence.parts.push_back(std::move(part.expr));
     return make(std::move(sequence), begin, end);
 }
 

@@ -1,7 +1,8 @@
 // Text to tree. Recovers from errors, so that one run reports every mistake at its exact column.
 //
-// The language is docs/lpe-language.md. What needs only the text is reported here: errors, and the lints about spelling
-// (`c` for `C`, `<L'key'>`, half-separated groups). Lints that need to know which paths an expression takes are in lint.h.
+// The language is docs/lpe-language.md. What needs only the text is reported here: errors, and the
+// lints about spelling (`c` for `C`, `<L'key'>`, half-separated groups). Lints that need to know
+// which paths an expression takes are in lint.h.
 #pragma once
 
 #include <cstddef>
@@ -37,8 +38,9 @@ struct ParseOptions {
 /// Reads an expression.
 ///
 /// text         the expression
-/// base         where the text stands (in a scene file); if its length is that of `text` errors point at the exact
-///              column, otherwise (a string with escapes) at the whole of it. Unknown: the text itself is quoted
+/// base         where the text stands (in a scene file); if its length is that of `text` errors
+///              point at the exact column, otherwise (a string with escapes) at the whole of it.
+///              Unknown: the text itself is quoted
 /// diagnostics  gets every error, and lints about spelling
 /// returns      the tree, or null if there was an error
 [[nodiscard]] Expr parse(std::string_view text, const SourceSpan& base, Diagnostics& diagnostics,
@@ -48,6 +50,7 @@ struct ParseOptions {
 [[nodiscard]] Expr parse(std::string_view text, Diagnostics& diagnostics);
 
 /// A place that covers the whole of a text of its own, for expressions that come from no file.
-[[nodiscard]] SourceSpan stand_alone(std::string_view text, std::string_view name = "<expression>");
+[[nodiscard]] SourceSpan stand_alone(std::string_view text,
+                                     std::string_view name = "<expression>");
 
 }  // namespace lightsieve::lpe

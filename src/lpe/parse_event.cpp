@@ -5,7 +5,6 @@
 namespace lightsieve::lpe {
 namespace {
 
-constexpr std::string_view kEventLetters = "CDSRTVLOBA";
 constexpr std::string_view kKindLetters = "CRTVLOBA";
 constexpr std::string_view kLobeLetters = "DS";
 constexpr std::string_view kQuantifiers = "*+?{";
@@ -15,7 +14,8 @@ Expr make(const Cursor& in, Form form, std::size_t begin) {
     return std::make_shared<const Node>(Node{std::move(form), in.span(begin, in.position())});
 }
 
-/// Position of the bracket that closes the one at the cursor, outside labels; npos if there is none.
+/// Position of the bracket that closes the one at the cursor, outside labels; npos if there is
+/// none.
 std::size_t find_close(const Cursor& in, char open, char close) {
     const std::string_view text = in.text();
     std::size_t depth = 0;
@@ -228,7 +228,8 @@ Expr parse_brackets(Cursor& in) {
     const bool closed = find_close(in, '[', ']') != std::string_view::npos;
     in.take();
     if (!closed) {
-        while (in.peek_is_one_of(kEventLetters)) in.take();
+        while (in.peek_is_one_of(kEventLetters))
+            in.take();
         in.error(Code::LpeUnclosed, "\"[\" is never closed", begin, begin + 1,
                  "close it: " + std::string(in.text(begin, in.position())) + "]");
         return nullptr;
@@ -253,7 +254,8 @@ Expr parse_brackets(Cursor& in) {
         brackets.items.push_back(std::move(item));
     }
     if (good && brackets.items.empty())
-        in.error(Code::LpeEmpty, "an empty choice", begin, in.position(), "any event is written .");
+        in.error(Code::LpeEmpty, "an empty choice", begin, in.position(),
+                 "any event is written .");
     if (!good || brackets.items.empty()) return nullptr;
     return make(in, std::move(brackets), begin);
 }

@@ -8,7 +8,8 @@
 
 namespace lightsieve::lpe {
 
-/// Reads one event's test. On an error it reports, skips what is wrong and returns null; it always moves on.
+/// Reads one event's test. On an error it reports, skips what is wrong and returns null; it always
+/// moves on.
 ///
 /// may_be_camera  a small `c` here may be meant as the camera (accepted with a lint)
 [[nodiscard]] Expr parse_event(Cursor& in, bool may_be_camera);

@@ -1,4 +1,5 @@
-// The reader and the printer: round trips, and errors exactly as people see them. Verdicts are in the corpus.
+// The reader and the printer: round trips, and errors exactly as people see them. Verdicts are in
+// the corpus.
 #include "lpe/parse.h"
 
 #include <gtest/gtest.h>
@@ -87,11 +88,12 @@ TEST(Parse, ErrorsAsPeopleSeeThem) {
               "      |  ^\n"
               "  hint: close the label: 'key'\n");
     // A column counts characters, not bytes.
-    EXPECT_EQ(rendered("C'Größe'\u0410"),
-              "<expression>:1:9: error[lpe-look-alike]: \"\u0410\" (U+0410) only looks like \"A\"\n"
-              "    1 | C'Größe'\u0410\n"
-              "      |         ^\n"
-              "  hint: type \"A\" itself\n");
+    EXPECT_EQ(
+        rendered("C'Größe'\u0410"),
+        "<expression>:1:9: error[lpe-look-alike]: \"\u0410\" (U+0410) only looks like \"A\"\n"
+        "    1 | C'Größe'\u0410\n"
+        "      |         ^\n"
+        "  hint: type \"A\" itself\n");
     EXPECT_EQ(rendered("C\n<R*>L"),
               "<expression>:2:3: error[lpe-quantifier]: a quantifier inside <..>\n"
               "    2 | <R*>L\n"
@@ -149,12 +151,14 @@ TEST(Parse, StopsAfterTwentyErrors) {
 }
 
 TEST(Parse, GarbageNeverCrashes) {
-    static constexpr std::string_view kBytes = "CDSRTVLOBAc.'<>[]()^*+?{}|,0129 \n\\\"$\xD0\xA1\xFFx";
+    static constexpr std::string_view kBytes =
+        "CDSRTVLOBAc.'<>[]()^*+?{}|,0129 \n\\\"$\xD0\xA1\xFFx";
     std::mt19937 random(7);
     std::size_t n_good = 0;
     for (int i = 0; i < 50'000; ++i) {
         std::string text;
-        for (std::size_t n = random() % 24; n > 0; --n) text += kBytes[random() % kBytes.size()];
+        for (std::size_t n = random() % 24; n > 0; --n)
+            text += kBytes[random() % kBytes.size()];
         Diagnostics diagnostics;
         const Expr expr = parse(text, diagnostics);
         ASSERT_EQ(expr == nullptr, diagnostics.has_errors()) << text;

@@ -18,10 +18,10 @@ struct KindLetter {
     EventKind kind;
 };
 constexpr std::array kKinds{
-    KindLetter{'C', EventKind::Camera},     KindLetter{'R', EventKind::Reflection},
+    KindLetter{'C', EventKind::Camera},       KindLetter{'R', EventKind::Reflection},
     KindLetter{'T', EventKind::Transmission}, KindLetter{'V', EventKind::Volume},
-    KindLetter{'L', EventKind::Light},      KindLetter{'O', EventKind::Object},
-    KindLetter{'B', EventKind::Background}, KindLetter{'A', EventKind::Albedo},
+    KindLetter{'L', EventKind::Light},        KindLetter{'O', EventKind::Object},
+    KindLetter{'B', EventKind::Background},   KindLetter{'A', EventKind::Albedo},
 };
 
 bool has_lobe(EventKind kind) {
@@ -55,15 +55,17 @@ class PathReader {
         return false;
     }
     [[nodiscard]] bool blank_before(std::size_t position) const {
-        return in_.text().find_first_of(" \t\r\n\v\f", position - 1) == position - 1;
+        return kBlanks.find(in_.text()[position - 1]) != std::string_view::npos;
     }
 
     bool read_event(Event& event) {
+        const std::size_t begin = in_.position();
         const bool angle = in_.take_if('<');
         in_.skip_blanks();
-        if (!read_kind(event) || !read_lobe(event, angle) || !read_labels(event, angle)) return false;
+        if (!read_kind(event) || !read_lobe(event, angle) || !read_labels(event, angle))
+            return false;
         if (angle && !in_.take_if('>'))
-            return reject("\"<\" is never closed", in_.position(), "close it with \">\"");
+            return reject("\"<\" is never closed", begin, "close it with \">\"");
         return true;
     }
 
@@ -109,7 +111,8 @@ class PathReader {
             event.labels.push_back(in_.read_label());
         if (in_.n_errors() > errors_before) return false;
         std::ranges::sort(event.labels);
-        event.labels.erase(std::unique(event.labels.begin(), event.labels.end()), event.labels.end());
+        event.labels.erase(std::unique(event.labels.begin(), event.labels.end()),
+                           event.labels.end());
         const std::size_t most = max_labels(event.kind);
         if (event.labels.size() > most)
             return reject(most == 0 ? "this event carries no label" : "too many labels", begin,
@@ -134,8 +137,7 @@ class PathReader {
             return reject(path.empty() ? "the path does not start with C" : "C stands only first",
                           begin, "a path is read from the camera: C RD L");
         if (!path.empty() && is_terminal(path.back().kind))
-            return reject("the path goes on after it has ended", begin,
-                          "L O B A stand only last");
+            return reject("the path goes on after it has ended", begin, "L O B A stand only last");
         if (path.size() == 1 && event.kind == EventKind::Albedo)
             return reject("a probe without a vertex", begin,
                           "the albedo of a first hit is C RD A");
@@ -174,7 +176,8 @@ std::string print_event(const Event& event) {
 
 std::string print_path(std::span<const Event> path) {
     std::string out;
-    for (const Event& event : path) out += (out.empty() ? "" : " ") + print_event(event);
+    for (const Event& event : path)
+        out += (out.empty() ? "" : " ") + print_event(event);
     return out;
 }
 

@@ -1,7 +1,8 @@
 // Light paths as people write them, for the command line, witnesses of proofs, logs and tests.
 //
-// A path is events separated by blanks, each as in an expression, with or without the angle brackets:
-// `C RD L`, `C <RS'coat'> TS L'key'`, `C V O'fire'`. Every event must be a single one: `D` is not, `RD` is.
+// A path is events separated by blanks, each as in an expression, with or without the angle
+// brackets: `C RD L`, `C <RS'coat'> TS L'key'`, `C V O'fire'`. Every event must be a single one:
+// `D` is not, `RD` is.
 #pragma once
 
 #include <optional>
@@ -22,8 +23,10 @@ using Path = std::vector<Event>;
 ///
 /// base         where the text stands, as for `parse`; unknown: the text itself is quoted
 /// diagnostics  gets what is wrong with it (code `lpe-path`), at the exact column
-/// returns      the path, or nothing if there was an error; L without a group is in group `default`
-[[nodiscard]] std::optional<Path> parse_path(std::string_view text, const SourceSpan& base, Diagnostics& diagnostics);
+/// returns      the path, or nothing if there was an error; L without a group is in group
+///              `default`
+[[nodiscard]] std::optional<Path> parse_path(std::string_view text, const SourceSpan& base,
+                                             Diagnostics& diagnostics);
 [[nodiscard]] std::optional<Path> parse_path(std::string_view text, Diagnostics& diagnostics);
 
 /// The path as `parse_path` reads it: `C RS'coat' L'key'`.
@@ -31,7 +34,8 @@ using Path = std::vector<Event>;
 /// One event: `RS'coat'`, `L` for a light of group `default`.
 [[nodiscard]] std::string print_event(const Event& event);
 
-/// Is this C, scattering events and exactly one terminal event (a probe only after a scattering event)?
+/// Is this C, scattering events and exactly one terminal event (a probe only after a scattering
+/// event)?
 [[nodiscard]] bool is_path(std::span<const Event> path);
 
 }  // namespace lightsieve::lpe

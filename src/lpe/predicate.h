@@ -1,7 +1,9 @@
-// What a test of a single event means: which events `D`, `.`, `'coat'`, `<RS[^'coat']>` or `[^LO]` take.
+// What a test of a single event means: which events `D`, `.`, `'coat'`, `<RS[^'coat']>` or `[^LO]`
+// take.
 //
-// One rule is easily overlooked: whatever does not name the camera or the probe by its letter (`.`, `[^..]`, labels,
-// `<.>`) never takes it. So an expression that takes any path starts with C, and light never mixes with probes by `.`.
+// One rule is easily overlooked: whatever does not name the camera or the probe by its letter
+// (`.`, `[^..]`, labels, `<.>`) never takes it. So an expression that takes any path starts with
+// C, and light never mixes with probes by `.`.
 #pragma once
 
 #include "core/event.h"

@@ -18,7 +18,8 @@ std::string print_letters(const LetterTest& test) {
 
 std::string print_labels(const LabelTest& test) {
     std::string labels;
-    for (const std::string& label : test.labels) labels += quoted(label);
+    for (const std::string& label : test.labels)
+        labels += quoted(label);
     switch (test.form) {
         case LabelTest::Form::Any: return ".";
         case LabelTest::Form::One: return labels;
@@ -52,12 +53,14 @@ struct Printer {
     std::string operator()(const Label& label) const { return quoted(label.label); }
     std::string operator()(const Angle& angle) const {
         std::string out = "<" + print_letters(angle.kind) + print_letters(angle.lobe);
-        for (const LabelTest& test : angle.labels) out += print_labels(test);
+        for (const LabelTest& test : angle.labels)
+            out += print_labels(test);
         return out + ">";
     }
     std::string operator()(const Brackets& brackets) const {
         std::string out = brackets.negated ? "[^" : "[";
-        for (const Expr& item : brackets.items) out += print(*item);
+        for (const Expr& item : brackets.items)
+            out += print(*item);
         return out + "]";
     }
     std::string operator()(const Sequence& sequence) const {

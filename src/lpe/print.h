@@ -1,6 +1,7 @@
 // Tree to text, in the one spelling that every renderer's dialect reads alike.
 //
-// Alternatives are always ((..)|(..)). Reading the text again gives an equal tree (for trees that `parse` made).
+// Alternatives are always ((..)|(..)). Reading the text again gives an equal tree (for trees that
+// `parse` made).
 #pragma once
 
 #include <string>

@@ -16,23 +16,27 @@ namespace lightsieve::lpe {
 namespace {
 
 constexpr std::string_view kDefaultGroup = "default";
-/// Work spent on putting expressions together, in units of Limits::max_steps, before the rest stay apart.
+/// Work spent on putting expressions together, in units of Limits::max_steps, before the rest stay
+/// apart.
 constexpr std::size_t kSplitEffort = 20;
 
-/// What a terminal's group means to the requests: a number per group that one of them names, and these.
+/// What a terminal's group means to the requests: a number per group that one of them names, and
+/// these.
 enum : std::uint32_t {
-    kProbeGroup,   ///< a probe: in no group
-    kDefault,      ///< light of no named group
-    kOtherGroup,   ///< light of a group that no request names
+    kProbeGroup,  ///< a probe: in no group
+    kDefault,     ///< light of no named group
+    kOtherGroup,  ///< light of a group that no request names
     kFirstNamed,
 };
 
-/// The requests of one distinct expression. The expression is one component of the automaton whatever their number.
+/// The requests of one distinct expression. The expression is one component of the automaton
+/// whatever their number.
 struct Component {
     Expr expr;
     std::uint32_t first_request;
-    std::vector<std::uint32_t> all, by_default;                       ///< requests, by GroupSelect
-    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> named;  ///< requests, by group number
+    std::vector<std::uint32_t> all, by_default;  ///< requests, by GroupSelect
+    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>>
+        named;  ///< requests, by group number
 };
 
 /// The bounded repeat that multiplies most, if there is one: what makes an automaton explode.
@@ -63,7 +67,9 @@ Error budget_error(const AovRequest& request, const OverBudget& over) {
     const SourceSpan where = culprit != nullptr ? culprit->where : request.expr->where;
     std::string hint = "the limit is " + over.limit;
     if (culprit != nullptr) hint = "\"" + print(*culprit) + "\" is what explodes; " + hint;
-    return {over.code, "AOV \"" + request.name + "\": its automaton " + over.message, where, hint, {}, Severity::Error};
+    return {over.code, "AOV \"" + request.name + "\": its automaton " + over.message,
+            where,     hint,
+            {},        Severity::Error};
 }
 
 }  // namespace
@@ -98,7 +104,8 @@ class ProgramBuilder {
     void compile_apart(const Components& components);
     std::optional<Determinised> try_determinise(const Components& components, OverBudget* over);
     void add_automaton(const Components& components, Determinised determinised);
-    AtomId atom_of(const Components& components, std::span<const std::uint32_t> accepting, std::uint32_t group);
+    AtomId atom_of(const Components& components, std::span<const std::uint32_t> accepting,
+                   std::uint32_t group);
     std::uint32_t group_of(const Event& event) const;
     void fill_live(Automaton& automaton) const;
     void finish_atoms();
@@ -110,7 +117,8 @@ class ProgramBuilder {
     }
     [[nodiscard]] std::vector<Expr> exprs_of(const Components& components) const {
         std::vector<Expr> exprs;
-        for (const std::uint32_t c : components) exprs.push_back(components_[c].expr);
+        for (const std::uint32_t c : components)
+            exprs.push_back(components_[c].expr);
         return exprs;
     }
 
@@ -177,7 +185,8 @@ std::uint32_t ProgramBuilder::group_of(const Event& event) const {
     return found == group_numbers_.end() ? std::uint32_t{kOtherGroup} : found->second;
 }
 
-/// Scattering events keep their class as column; terminals get one for each (class, group) that occurs.
+/// Scattering events keep their class as column; terminals get one for each (class, group) that
+/// occurs.
 void ProgramBuilder::number_columns() {
     program_.n_classes_ = alphabet_->n_scatter();
     for (EventClass c = Alphabet::kFirstScatter; c < alphabet_->first_terminal(); ++c)
@@ -190,7 +199,8 @@ void ProgramBuilder::number_columns() {
             continue;
         }
         const std::uint32_t group = group_of(events_[i]);
-        const auto next = program_.first_terminal() + static_cast<std::uint32_t>(terminals_.size());
+        const auto next =
+            program_.first_terminal() + static_cast<std::uint32_t>(terminals_.size());
         const auto [entry, is_new] = column_of.emplace(std::pair{event_class, group}, next);
         if (is_new) {
             terminals_.push_back({event_class, group});
@@ -208,10 +218,10 @@ std::optional<Determinised> ProgramBuilder::try_determinise(const Components& co
         total_steps_ += made.n_steps;
         const std::size_t stride = 1 + program_.n_classes_ + program_.n_terminals_;
         if (made.dfa.n_states() * stride * sizeof(std::uint32_t) > limits_.max_table_bytes)
-            throw OverBudget{Code::LimitLpeTable,
-                             "needs a table of more than " +
-                                 std::to_string(limits_.max_table_bytes) + " bytes",
-                             "max_table_bytes"};
+            throw OverBudget{
+                Code::LimitLpeTable,
+                "needs a table of more than " + std::to_string(limits_.max_table_bytes) + " bytes",
+                "max_table_bytes"};
         return made;
     } catch (const OverBudget& exceeded) {
         total_steps_ += limits_.max_steps;
@@ -227,8 +237,8 @@ void ProgramBuilder::compile_together(const Components& components) {
     compile_apart(components);
 }
 
-/// Each expression alone, to find those that can never be compiled; then, smallest first, each into the first
-/// automaton that stays within the budget.
+/// Each expression alone, to find those that can never be compiled; then, smallest first, each
+/// into the first automaton that stays within the budget.
 void ProgramBuilder::compile_apart(const Components& components) {
     std::vector<std::pair<std::size_t, std::uint32_t>> by_size;
     for (const std::uint32_t c : components) {
@@ -298,20 +308,24 @@ void ProgramBuilder::add_automaton(const Components& components, Determinised de
         for (std::size_t t = 0; t < terminals_.size(); ++t) {
             const EventClass column = terminals_[t].event_class - alphabet_->first_terminal();
             const std::uint32_t set = determinised.outputs[output][column];
-            const auto [atom, is_new] = atom_of_set.emplace(std::pair{set, terminals_[t].group}, 0);
+            const auto [atom, is_new] =
+                atom_of_set.emplace(std::pair{set, terminals_[t].group}, 0);
             if (is_new)
                 atom->second = atom_of(components, determinised.sets[set], terminals_[t].group);
             row[t] = atom->second;
         }
         row_of_output[output] = rows.intern(row);
     }
-    for (std::uint32_t& output : determinised.dfa.output) output = row_of_output[output];
+    for (std::uint32_t& output : determinised.dfa.output)
+        output = row_of_output[output];
 
     // The smallest automaton with these rows as outputs, as one table.
     const Dfa dfa = minimise(determinised.dfa);
     Automaton automaton;
     automaton.stride_ = 1 + program_.n_classes_ + program_.n_terminals_;
-    automaton.table_.reserve(dfa.n_states() * automaton.stride_);
+    const std::size_t table_size = dfa.n_states() * automaton.stride_;
+    LIGHTSIEVE_ASSERT(table_size < kNoAtom, std::to_string(table_size) + " entries");
+    automaton.table_.reserve(table_size);
     for (std::size_t state = 0; state < dfa.n_states(); ++state) {
         automaton.table_.push_back(0);  // flags, filled in below
         for (std::size_t column = 0; column < dfa.n_classes; ++column)
@@ -324,7 +338,8 @@ void ProgramBuilder::add_automaton(const Components& components, Determinised de
     program_.automata_.push_back(std::move(automaton));
 }
 
-/// What each state can still reach: its own atoms and what its successors can reach, until nothing changes.
+/// What each state can still reach: its own atoms and what its successors can reach, until nothing
+/// changes.
 void ProgramBuilder::fill_live(Automaton& automaton) const {
     const std::size_t n_words = (aovs_.size() + 63) / 64;
     const std::size_t n_states = automaton.n_states();
@@ -334,7 +349,8 @@ void ProgramBuilder::fill_live(Automaton& automaton) const {
         for (std::uint32_t t = 0; t < terminals_.size(); ++t) {
             const AtomId atom = automaton.atom(state, program_.first_terminal() + t);
             if (atom == kNoAtom) continue;
-            automaton.table_[state] |= terminals_[t].group == kProbeGroup ? Automaton::kLiveProbe : Automaton::kLiveLight;
+            automaton.table_[state] |=
+                terminals_[t].group == kProbeGroup ? Automaton::kLiveProbe : Automaton::kLiveLight;
             for (const std::uint32_t aov : atoms_[atom])
                 reach[s * n_words + aov / 64] |= std::uint64_t{1} << (aov % 64);
         }
@@ -394,7 +410,8 @@ TerminalId Program::terminal(const Event& event) const {
 
 std::size_t Program::table_bytes() const noexcept {
     std::size_t bytes = 0;
-    for (const Automaton& automaton : automata_) bytes += automaton.table_bytes();
+    for (const Automaton& automaton : automata_)
+        bytes += automaton.table_bytes();
     return bytes;
 }
 

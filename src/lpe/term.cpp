@@ -46,13 +46,15 @@ TermId TermPool::make_set(std::span<const std::uint32_t> classes) {
     return store(std::array<std::uint32_t, 2>{kSetKind, sets_.intern(classes)}, flags);
 }
 
-/// Nothing absorbs, the empty path vanishes, (ab)c becomes a(bc), and `.*` swallows what may be empty after it.
+/// Nothing absorbs, the empty path vanishes, (ab)c becomes a(bc), and `.*` swallows what may be
+/// empty after it.
 TermId TermPool::make_sequence(TermId head, TermId tail) {
     if (head == kNothing || tail == kNothing) return kNothing;
     if (head == kEmpty) return tail;
     if (tail == kEmpty) return head;
     std::vector<TermId> heads;
-    for (; kind(head) == kSequenceKind; head = field(head, 2)) heads.push_back(field(head, 1));
+    for (; kind(head) == kSequenceKind; head = field(head, 2))
+        heads.push_back(field(head, 1));
     heads.push_back(head);
     for (std::size_t i = heads.size(); i-- > 0;) {
         if (is_universal(heads[i]) && accepts_empty(tail) && !takes_rare(tail)) {
@@ -66,8 +68,8 @@ TermId TermPool::make_sequence(TermId head, TermId tail) {
     return tail;
 }
 
-/// Flattened, single events united to one set, sorted, without duplicates and without what `.*` takes anyway. Uses
-/// `parts` as scratch space.
+/// Flattened, single events united to one set, sorted, without duplicates and without what `.*`
+/// takes anyway. Uses `parts` as scratch space.
 TermId TermPool::make_alternation(std::vector<TermId>& parts) {
     std::vector<std::uint32_t> classes(alphabet_.n_words(), 0);
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -78,7 +80,8 @@ TermId TermPool::make_alternation(std::vector<TermId>& parts) {
             parts[i] = kNothing;
         } else if (kind(part) == kSetKind) {
             const std::span<const std::uint32_t> set = sets_[field(part, 1)];
-            for (std::size_t w = 0; w < classes.size(); ++w) classes[w] |= set[w];
+            for (std::size_t w = 0; w < classes.size(); ++w)
+                classes[w] |= set[w];
             parts[i] = kNothing;
         }
     }
@@ -99,7 +102,8 @@ TermId TermPool::make_alternation(std::vector<TermId>& parts) {
     if (parts.empty()) return kNothing;
     if (parts.size() == 1) return parts[0];
     unsigned flags = 0;
-    for (const TermId part : parts) flags |= flags_[part] & (kNullable | kTakesRare);
+    for (const TermId part : parts)
+        flags |= flags_[part] & (kNullable | kTakesRare);
     parts.insert(parts.begin(), kAlternationKind);
     return store(parts, flags);
 }
@@ -135,10 +139,12 @@ TermId TermPool::lower_node(const Node& node) {
     if (const auto* repeat = std::get_if<Repeat>(&node.form))
         return make_repeat(lower(repeat->body), repeat->min, repeat->max);
     std::vector<TermId> parts;
-    for (const Expr& child : children(node)) parts.push_back(lower(child));
+    for (const Expr& child : children(node))
+        parts.push_back(lower(child));
     if (std::holds_alternative<Alternation>(node.form)) return make_alternation(parts);
     TermId sequence = kEmpty;
-    for (std::size_t i = parts.size(); i-- > 0;) sequence = make_sequence(parts[i], sequence);
+    for (std::size_t i = parts.size(); i-- > 0;)
+        sequence = make_sequence(parts[i], sequence);
     return sequence;
 }
 
@@ -147,10 +153,10 @@ TermId TermPool::lower_node(const Node& node) {
 void TermPool::count_steps(std::size_t n) {
     n_steps_ += n;
     if (n_steps_ > limits_.max_steps)
-        throw OverBudget{Code::LimitLpeSteps,
-                         "needs more than " + std::to_string(limits_.max_steps) +
-                             " derivative steps",
-                         "max_steps"};
+        throw OverBudget{
+            Code::LimitLpeSteps,
+            "needs more than " + std::to_string(limits_.max_steps) + " derivative steps",
+            "max_steps"};
 }
 
 TermId TermPool::derive(TermId term, EventClass c) {
@@ -178,7 +184,8 @@ TermId TermPool::derive_now(TermId term, EventClass c) {
     }
 }
 
-/// The head moves on, or, if it may be empty, the tail. A loop along the tails, so that long sequences need no stack.
+/// The head moves on, or, if it may be empty, the tail. A loop along the tails, so that long
+/// sequences need no stack.
 TermId TermPool::derive_sequence(TermId term, EventClass c) {
     std::vector<TermId> parts;
     TermId rest = term;
@@ -194,18 +201,20 @@ TermId TermPool::derive_sequence(TermId term, EventClass c) {
 
 TermId TermPool::derive_alternation(TermId term, EventClass c) {
     std::vector<TermId> parts;
-    for (std::size_t i = 1; i < terms_[term].size(); ++i) parts.push_back(derive(field(term, i), c));
+    for (std::size_t i = 1; i < terms_[term].size(); ++i)
+        parts.push_back(derive(field(term, i), c));
     return make_alternation(parts);
 }
 
-/// One round moves on, the others are left. That also holds where a round may be empty, as min is 0 then.
+/// One round moves on, the others are left. That also holds where a round may be empty, as min is
+/// 0 then.
 TermId TermPool::derive_repeat(TermId term, EventClass c) {
     const TermId body = field(term, 1);
     const std::uint32_t min = field(term, 2), max = field(term, 3);
     const TermId moved = derive(body, c);
     if (moved == kNothing) return kNothing;
-    const TermId others = make_repeat(body, min == 0 ? 0 : min - 1,
-                                      max == Repeat::kUnbounded ? max : max - 1);
+    const TermId others =
+        make_repeat(body, min == 0 ? 0 : min - 1, max == Repeat::kUnbounded ? max : max - 1);
     return make_sequence(moved, others);
 }
 

@@ -1,11 +1,11 @@
 // Regular expressions over event classes, and their derivatives.
 //
-// The derivative of an expression by a class is the expression for what may follow once an event of that class has been
-// seen; an automaton's states are nothing but derivatives. Terms are stored once and kept in a normal form (alternatives
-// sorted and without duplicates, sequences nested to the right, what `.*` takes anyway left out), which makes their number
-// finite and small.
-// Repeats {n,m} stay symbolic: they count down instead of being unrolled.
-// Source: Owens, Reppy, Turon, "Regular-expression derivatives re-examined", JFP 19 (2009).
+// The derivative of an expression by a class is the expression for what may follow once an event
+// of that class has been seen; an automaton's states are nothing but derivatives. Terms are stored
+// once and kept in a normal form (alternatives sorted and without duplicates, sequences nested to
+// the right, what `.*` takes anyway left out), which makes their number finite and small. Repeats
+// {n,m} stay symbolic: they count down instead of being unrolled. Source: Owens, Reppy, Turon,
+// "Regular-expression derivatives re-examined", JFP 19 (2009).
 #pragma once
 
 #include <cstddef>
@@ -22,13 +22,15 @@ namespace lightsieve::lpe {
 
 using TermId = std::uint32_t;
 
-/// All terms of one compilation or proof. Every method that makes terms throws OverBudget when a limit is exceeded.
+/// All terms of one compilation or proof. Every method that makes terms throws OverBudget when a
+/// limit is exceeded.
 class TermPool {
   public:
     static constexpr TermId kNothing = 0;  ///< takes no path
     static constexpr TermId kEmpty = 1;    ///< takes the path of no events
 
-    /// The alphabet must have been made from every expression that will be lowered, and must outlive the pool.
+    /// The alphabet must have been made from every expression that will be lowered, and must
+    /// outlive the pool.
     TermPool(const Alphabet& alphabet, const Limits& limits);
 
     /// The expression as a term; null is kNothing.
@@ -38,7 +40,9 @@ class TermPool {
     /// May the path end here?
     [[nodiscard]] bool accepts_empty(TermId term) const { return (flags_[term] & kNullable) != 0; }
     /// May the path end with one more event of class c?
-    [[nodiscard]] bool accepts(TermId term, EventClass c) { return accepts_empty(derive(term, c)); }
+    [[nodiscard]] bool accepts(TermId term, EventClass c) {
+        return accepts_empty(derive(term, c));
+    }
     /// Counts work that callers do for each derivative they ask for, against the same budget.
     void count_steps(std::size_t n);
 
@@ -55,9 +59,9 @@ class TermPool {
         kRepeatKind,       ///< body, min, max
     };
     enum Flags : std::uint8_t {
-        kNullable = 1,    ///< takes the path of no events
-        kTakesRare = 2,   ///< has a test that takes the camera or a probe
-        kUniversal = 4,   ///< `.*`: takes whatever has no camera and no probe
+        kNullable = 1,   ///< takes the path of no events
+        kTakesRare = 2,  ///< has a test that takes the camera or a probe
+        kUniversal = 4,  ///< `.*`: takes whatever has no camera and no probe
     };
 
     [[nodiscard]] Kind kind(TermId term) const { return static_cast<Kind>(terms_[term][0]); }
@@ -81,8 +85,8 @@ class TermPool {
 
     const Alphabet& alphabet_;
     Limits limits_;
-    Interner terms_;                      ///< kind, then its fields
-    Interner sets_;                       ///< bit sets of classes
+    Interner terms_;                       ///< kind, then its fields
+    Interner sets_;                        ///< bit sets of classes
     std::vector<std::uint8_t> flags_;      ///< per term
     std::vector<std::uint32_t> memo_row_;  ///< per term: its row of memo_ plus 1, or 0
     std::vector<TermId> memo_;             ///< derivatives by each class, or kUnknown

@@ -26,7 +26,8 @@ EventClass Engines::class_of(const Event& event) const {
 
 bool Engines::run(const Dfa& dfa, const Path& path) const {
     std::uint32_t state = dfa.start;
-    for (std::size_t i = 1; i + 1 < path.size(); ++i) state = dfa.step(state, class_of(path[i]));
+    for (std::size_t i = 1; i + 1 < path.size(); ++i)
+        state = dfa.step(state, class_of(path[i]));
     const std::uint32_t column = class_of(path.back()) - alphabet_.first_terminal();
     const std::uint32_t set = made_.outputs[dfa.output[state]][column];
     return !made_.sets[set].empty();

@@ -24,11 +24,13 @@ class Engines {
         std::string engine;
         bool takes;
     };
-    /// The answers of: the naive matcher, `match`, the automaton as it was made, the minimised one, the program.
+    /// The answers of: the naive matcher, `match`, the automaton as it was made, the minimised
+    /// one, the program.
     [[nodiscard]] std::vector<Answer> ask(const Path& path) const;
     /// "" if all engines answer `expected`, else who does not.
     [[nodiscard]] std::string dissent(const Path& path, bool expected) const;
-    /// What the naive matcher says, if all agree; else throws std::logic_error naming path and engines.
+    /// What the naive matcher says, if all agree; else throws std::logic_error naming path and
+    /// engines.
     bool agreed(const Path& path) const;
 
   private:

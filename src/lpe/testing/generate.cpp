@@ -17,7 +17,8 @@ std::size_t below(std::mt19937& random, std::size_t n) { return random() % n; }
 
 std::string some_letters(std::mt19937& random, const std::string& from) {
     std::string out;
-    for (std::size_t n = 1 + below(random, 2); n > 0; --n) out += from[below(random, from.size())];
+    for (std::size_t n = 1 + below(random, 2); n > 0; --n)
+        out += from[below(random, from.size())];
     return out;
 }
 
@@ -38,12 +39,14 @@ LetterTest some_letter_test(std::mt19937& random, const std::string& from, bool 
 }
 
 Expr some_angle(std::mt19937& random) {
-    Angle angle{some_letter_test(random, "CRTVLOBARTV", false), some_letter_test(random, "DS", true), {}};
+    Angle angle{
+        some_letter_test(random, "CRTVLOBARTV", false), some_letter_test(random, "DS", true), {}};
     for (std::size_t n = below(random, 3); n > 0; --n) {
         LabelTest test;
         // Without a lobe, a first "." would be read as the lobe.
         const bool may_be_any = angle.lobe.form != LetterTest::Form::Missing;
-        test.form = static_cast<LabelTest::Form>(may_be_any ? below(random, 4) : 1 + below(random, 3));
+        test.form =
+            static_cast<LabelTest::Form>(may_be_any ? below(random, 4) : 1 + below(random, 3));
         if (test.form != LabelTest::Form::Any) test.labels.push_back(some_label(random));
         if (test.form > LabelTest::Form::One) test.labels.push_back(some_label(random));
         angle.labels.push_back(std::move(test));
@@ -142,7 +145,8 @@ Expr random_expression(std::mt19937& random, std::size_t n_nodes) {
         const auto min = static_cast<std::uint32_t>(below(random, 3));
         const auto max = static_cast<std::uint32_t>(min + below(random, 3));
         const bool unbounded = below(random, 2) == 0;
-        return make(Repeat{random_expression(random, n_nodes - 1), min, unbounded ? Repeat::kUnbounded : max});
+        return make(Repeat{random_expression(random, n_nodes - 1), min,
+                           unbounded ? Repeat::kUnbounded : max});
     }
     std::vector<Expr> parts;
     const std::size_t n_parts = 2 + below(random, 2);

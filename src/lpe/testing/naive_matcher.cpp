@@ -77,7 +77,8 @@ bool single_event_matches(const Node& test, const Event& event) {
     if (const auto* angle = std::get_if<Angle>(&test.form)) return angle_matches(*angle, event);
     const auto& brackets = std::get<Brackets>(test.form);
     bool one = false;
-    for (const Expr& item : brackets.items) one = one || single_event_matches(*item, event);
+    for (const Expr& item : brackets.items)
+        one = one || single_event_matches(*item, event);
     return brackets.negated ? !is_camera_or_probe(event) && !one : one;
 }
 
@@ -88,11 +89,13 @@ std::set<std::size_t> ends(const Node& node, std::span<const Event> path, std::s
         out.insert(begin);
         for (const Expr& part : sequence->parts) {
             std::set<std::size_t> next;
-            for (const std::size_t at : out) next.merge(ends(*part, path, at));
+            for (const std::size_t at : out)
+                next.merge(ends(*part, path, at));
             out = next;
         }
     } else if (const auto* alternation = std::get_if<Alternation>(&node.form)) {
-        for (const Expr& part : alternation->parts) out.merge(ends(*part, path, begin));
+        for (const Expr& part : alternation->parts)
+            out.merge(ends(*part, path, begin));
     } else if (const auto* repeat = std::get_if<Repeat>(&node.form)) {
         std::set<std::size_t> now{begin};
         // More rounds than the minimum and the path's length can only be empty ones.
@@ -100,7 +103,8 @@ std::set<std::size_t> ends(const Node& node, std::span<const Event> path, std::s
         for (std::size_t round = 0; round <= repeat->max && round <= most; ++round) {
             if (round >= repeat->min) out.insert(now.begin(), now.end());
             std::set<std::size_t> next;
-            for (const std::size_t at : now) next.merge(ends(*repeat->body, path, at));
+            for (const std::size_t at : now)
+                next.merge(ends(*repeat->body, path, at));
             now = next;
         }
     } else if (begin < path.size() && single_event_matches(node, path[begin])) {

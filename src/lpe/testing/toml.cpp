@@ -32,7 +32,8 @@ class Reader {
   private:
     [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
     [[nodiscard]] std::size_t line() const {
-        return 1 + static_cast<std::size_t>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n'));
+        return 1 + static_cast<std::size_t>(std::count(
+                       text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n'));
     }
     [[noreturn]] void fail(const std::string& message) const {
         throw std::runtime_error(file_ + ":" + std::to_string(line()) + ": " + message);
@@ -82,7 +83,8 @@ class Reader {
     }
     std::int64_t read_integer() {
         std::size_t used = 0;
-        const std::string digits = text_.substr(at_, text_.find_first_not_of("-0123456789", at_) - at_);
+        const std::string digits =
+            text_.substr(at_, text_.find_first_not_of("-0123456789", at_) - at_);
         if (digits.empty()) fail("expected a value");
         const std::int64_t value = std::stoll(digits, &used);
         at_ += used;
@@ -138,10 +140,13 @@ class Reader {
         const auto code = static_cast<unsigned>(std::stoul(text_.substr(at_, 4), nullptr, 16));
         at_ += 4;
         // UTF-8 of a code point below 0x10000.
-        const auto byte = [](unsigned value) { return static_cast<char>(static_cast<unsigned char>(value)); };
+        const auto byte = [](unsigned value) {
+            return static_cast<char>(static_cast<unsigned char>(value));
+        };
         if (code < 0x80) return {byte(code)};
         if (code < 0x800) return {byte(0xC0U | code >> 6U), byte(0x80U | (code & 0x3FU))};
-        return {byte(0xE0U | code >> 12U), byte(0x80U | (code >> 6U & 0x3FU)), byte(0x80U | (code & 0x3FU))};
+        return {byte(0xE0U | code >> 12U), byte(0x80U | (code >> 6U & 0x3FU)),
+                byte(0x80U | (code & 0x3FU))};
     }
 
     std::string text_, file_;

@@ -1,8 +1,8 @@
 // Reads the part of TOML that our test corpora use, and refuses the rest.
 //
-// A file is comments, `[[name]]` headers and `key = value` lines. A value is a basic string ("..", with \" \\ \n \t and
-// \uXXXX), an integer, true or false, an array (over several lines, with comments), or an inline table. Every
-// `[[name]]` opens a new table in the list of that name.
+// A file is comments, `[[name]]` headers and `key = value` lines. A value is a basic string ("..",
+// with \" \\ \n \t and \uXXXX), an integer, true or false, an array (over several lines, with
+// comments), or an inline table. Every `[[name]]` opens a new table in the list of that name.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,8 @@ struct TomlEntry {
     [[nodiscard]] std::vector<TomlTable> tables(const std::string& key) const;
 };
 
-/// All entries of a file, in order. Throws std::runtime_error with file and line on anything it does not know.
+/// All entries of a file, in order. Throws std::runtime_error with file and line on anything it
+/// does not know.
 [[nodiscard]] std::vector<TomlEntry> read_toml(const std::filesystem::path& file);
 
 }  // namespace lightsieve::lpe::testing
