@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "io/exr_read.h"
 #include "io/exr_write.h"
-#include "io/test_folder.h"
+#include "io/testing/test_folder.h"
 
 namespace lightsieve {
 namespace {

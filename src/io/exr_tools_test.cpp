@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "io/image_read.h"
-#include "io/test_folder.h"
+#include "io/testing/test_folder.h"
 
 namespace lightsieve {
 namespace {

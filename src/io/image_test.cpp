@@ -8,7 +8,7 @@
 #include "io/exr_write.h"
 #include "io/image_read.h"
 #include "io/image_write.h"
-#include "io/test_folder.h"
+#include "io/testing/test_folder.h"
 
 namespace lightsieve {
 namespace {

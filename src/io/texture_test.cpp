@@ -10,7 +10,7 @@
 
 #include "io/exr_write.h"
 #include "io/image_write.h"
-#include "io/test_folder.h"
+#include "io/testing/test_folder.h"
 
 namespace lightsieve {
 namespace {

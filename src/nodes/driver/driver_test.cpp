@@ -1,14 +1,13 @@
 // Drivers: what is in the file for known pixels, channel names, headers, and files that cannot be written.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cmath>
-#include <filesystem>
 
 #include "core/color.h"
 #include "io/exr_tools.h"
 #include "io/image_read.h"
+#include "io/testing/test_folder.h"
 #include "nodes/common/node_test_support.h"
 #include "scene/driver.h"
 
@@ -41,22 +40,8 @@ ImageHeader header_of(std::vector<ImageLayer> layers) {
     return header;
 }
 
-class DriverTest : public testing::Test {
+class DriverTest : public FolderTest {
   protected:
-    DriverTest()
-        : folder_(std::filesystem::temp_directory_path() /
-                  ("lightsieve-driver-" + std::to_string(::getpid()) +
-                   testing::UnitTest::GetInstance()->current_test_info()->name())) {
-        std::filesystem::create_directories(folder_);
-    }
-    ~DriverTest() override {
-        std::error_code ec;
-        std::filesystem::remove_all(folder_, ec);
-    }
-    [[nodiscard]] std::string in_folder(const std::string& name) const {
-        return (folder_ / name).string();
-    }
-
     [[nodiscard]] std::unique_ptr<Driver> make(TestNode& node, const std::string& file) {
         node.set("filename", Name(in_folder(file)));
         return node.type().make_driver(node.block(), context_);
@@ -102,9 +87,6 @@ class DriverTest : public testing::Test {
     }
 
     TestContext context_;
-
-  private:
-    std::filesystem::path folder_;
 };
 
 using Names = std::vector<std::string>;

@@ -1,11 +1,11 @@
 // image: parameters, missing files.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <optional>
 
 #include "io/image_write.h"
+#include "io/testing/test_folder.h"
 #include "io/texture.h"
 #include "nodes/common/node_test_support.h"
 #include "scene/shade_point.h"
@@ -42,30 +42,22 @@ class AssetContext final : public NodeContext {
     bool ignore_missing = false;
 };
 
-class ImageNodeTest : public testing::Test {
+class ImageNodeTest : public FolderTest {
   protected:
     ImageNodeTest() {
-        context_.folder = std::filesystem::temp_directory_path() /
-                          ("lightsieve-image-" + std::to_string(::getpid()) +
-                           testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(context_.folder);
+        context_.folder = in_folder("");
         // Upper row red, green; lower row blue, white; then a float file of one texel.
         PictureSpec spec;
         spec.width = spec.height = 2;
         spec.n_channels = 3;
-        write_picture((context_.folder / "a.png").string(), spec,
+        write_picture(in_folder("a.png"), spec,
                       std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1});
         spec.width = spec.height = 1;
         spec.n_channels = 4;
         spec.format = PictureFormat::Tiff;
         spec.type = PictureType::Float;
-        write_picture((context_.folder / "one.tif").string(), spec,
-                      std::vector<float>{0.5F, 2, 3, 0.25F});
+        write_picture(in_folder("one.tif"), spec, std::vector<float>{0.5F, 2, 3, 0.25F});
         node_.set("filename", Name("a.png")).set("color_space", Name("")).set_enum("filter", 0);
-    }
-    ~ImageNodeTest() override {
-        std::error_code ec;
-        std::filesystem::remove_all(context_.folder, ec);
     }
     void prepare() { node_.type().prepare(node_.block(), context_); }
     [[nodiscard]] Rgba at(float u, float v) const {
