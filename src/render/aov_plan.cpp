@@ -6,6 +6,7 @@
 
 #include "lpe/algebra.h"
 #include "lpe/builtins.h"
+#include "lpe/lint.h"
 #include "lpe/parse.h"
 #include "scene/graph.h"
 
@@ -278,6 +279,57 @@ class Planner {
             if (request.expr != nullptr)
                 lpe::for_each_node(*request.expr, [&](const lpe::Node& node) { plan_.wants_probes |= may_take_probe(node); });
         plan_.program.emplace(lpe::Program::compile(plan_.requests, input_.events, {}, diagnostics_));
+        lint();
+    }
+
+    /// Legal outputs that will not show what was hoped for.
+    void lint() {
+        std::vector<lpe::LintOutput> outputs;
+        std::set<const lpe::Node*> seen;
+        for (const PlannedLayer& layer : plan_.layers) {
+            if (layer.expr == nullptr || layer.select != lpe::GroupSelect::All) continue;
+            outputs.push_back({layer.info.aov, layer.expr, {}});
+            const bool is_custom = lpe::find_builtin(layer.info.aov) == nullptr;
+            if (is_custom && seen.insert(layer.expr.get()).second) lpe::lint_in_scene(layer.expr, layer.info.aov, input_.events, diagnostics_);
+        }
+        lpe::lint_overlaps(outputs, diagnostics_);
+        if (!input_.has_caustics) lint_caustics();
+    }
+
+    /// With `caustics` off no specular event follows a diffuse one: an AOV that needs such a pair stays black.
+    void lint_caustics() {
+        const lpe::Program& program = *plan_.program;
+        std::vector<bool> reached(plan_.requests.size(), false);
+        for (std::size_t i = 0; i < program.n_automata(); ++i)
+            mark_reached_without_caustics(program.automaton(i), reached);
+        for (std::size_t a = 0; a < reached.size(); ++a) {
+            bool live = false;
+            for (std::size_t i = 0; i < program.n_automata(); ++i)
+                live |= program.automaton(i).live_aov(program.automaton(i).start(), a);
+            if (live && !reached[a] && plan_.requests[a].select == lpe::GroupSelect::All)
+                diagnostics_.lint(Code::LpeCaustics, "\"" + plan_.requests[a].name + "\" only takes paths on which a specular event follows a diffuse one; they are black while every shader has caustics off", {}, "set `caustics on` on the specular shaders, as standard_surface has it");
+        }
+    }
+
+    void mark_reached_without_caustics(const lpe::Automaton& automaton, std::vector<bool>& reached) const {
+        const lpe::Program& program = *plan_.program;
+        std::set<std::pair<lpe::State, bool>> seen;
+        std::vector<std::pair<lpe::State, bool>> open{{automaton.start(), false}};
+        while (!open.empty()) {
+            const auto [state, after_diffuse] = open.back();
+            open.pop_back();
+            if (state == lpe::kDead || !seen.insert({state, after_diffuse}).second) continue;
+            for (const Event& event : input_.events) {
+                if (is_terminal(event.kind)) {
+                    const lpe::AtomId atom = automaton.atom(state, program.terminal(event));
+                    if (atom == lpe::kNoAtom) continue;
+                    for (const std::uint32_t aov : program.aovs_of(atom))
+                        reached[aov] = true;
+                } else if (!(after_diffuse && event.lobe == EventLobe::Specular)) {
+                    open.emplace_back(automaton.step(state, program.scatter_class(event)), event.lobe == EventLobe::Diffuse);
+                }
+            }
+        }
     }
 
     /// Only a literal A or <A> matches a probe.

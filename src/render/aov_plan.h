@@ -101,6 +101,7 @@ struct PlanInput {
     const RenderOptions& options;
     std::span<const std::string> light_groups;  ///< named groups of the scene's lights
     std::span<const Event> events;              ///< every event the scene can produce
+    bool has_caustics = false;                  ///< some shader has `caustics` on
 };
 
 /// Layers, requests and the compiled program. Cameras, filters and drivers are made by the caller (compile.cpp).

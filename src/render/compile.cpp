@@ -35,7 +35,7 @@ ScenePtr Compiler::run() {
     gather_events();
     // Mistakes in expressions are forgiven if the scene says so: their AOVs are black (spec: abort_on_error).
     const std::size_t before = diagnostics_.n_errors();
-    plan_layers({graph_, options_, scene_->summary.light_groups, scene_->events}, scene_->plan, diagnostics_);
+    plan_layers({graph_, options_, scene_->summary.light_groups, scene_->events, has_caustics()}, scene_->plan, diagnostics_);
     const std::size_t forgiven = abort_on_error_ ? 0 : diagnostics_.n_errors() - before;
     make_cameras();
     make_views();
@@ -49,6 +49,13 @@ ScenePtr Compiler::run() {
     make_accels();
     summarize_scene();
     return std::move(scene_);
+}
+
+bool Compiler::has_caustics() const {
+    return std::any_of(graph_.nodes().begin(), graph_.nodes().end(), [](const auto& node) {
+        const bool* caustics = node->template find<bool>("caustics");
+        return caustics != nullptr && (*caustics || node->is_linked("caustics"));
+    });
 }
 
 template <class T>

@@ -46,6 +46,7 @@ class Compiler {
     const NodeInstance* default_camera();
     void finish_depth_rules();
     void summarize_scene();
+    [[nodiscard]] bool has_caustics() const;
     template <class T>
     [[nodiscard]] T option(Name param, T fallback) const;
     [[nodiscard]] SourceSpan option_place(Name param) const;
