@@ -134,7 +134,7 @@ def check(scene: Path, **settings: Unpack[Settings]) -> Report:
 
     Example:
         >>> check("scene.ass").summary.n_lights
-        1
+        2
     """
     compiled = compile_scene(scene, capture=False, write_files=True, **settings)
     return Report(compiled.summary() if compiled.usable else None, compiled.diagnostics)

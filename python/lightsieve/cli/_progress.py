@@ -29,21 +29,33 @@ def _clock(seconds: float) -> str:
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
 
 
-def _rate_and_rest(now: RenderProgress) -> tuple[float, str]:
-    """Samples a second, and the time left as text."""
-    rate = now.samples_done / now.seconds if now.seconds > 0 else 0.0
-    return rate, _clock((now.samples_total - now.samples_done) / rate) if rate > 0 else "?"
+class _Clock:
+    """Rate and time left by a clock of our own: a report may be older than its showing."""
+
+    def __init__(self) -> None:
+        self._start: float | None = None
+
+    def rate_and_rest(self, now: RenderProgress) -> tuple[float, str]:
+        """Samples a second, and the time left as text."""
+        if self._start is None:
+            self._start = time.monotonic() - now.seconds
+        seconds = time.monotonic() - self._start
+        rate = now.samples_done / seconds if seconds > 0 else 0.0
+        return rate, _clock((now.samples_total - now.samples_done) / rate) if rate > 0 else "?"
 
 
 class _Log:
     def __init__(self) -> None:
+        self._clock = _Clock()
         self._next = time.monotonic() + LOG_INTERVAL_S
+        self._shown = 0
 
     def __call__(self, now: RenderProgress) -> None:
-        if time.monotonic() < self._next or now.samples_total == 0:
+        rate, left = self._clock.rate_and_rest(now)
+        if time.monotonic() < self._next or now.samples_done == self._shown:
             return
         self._next = time.monotonic() + LOG_INTERVAL_S
-        rate, left = _rate_and_rest(now)
+        self._shown = now.samples_done
         percent = 100 * now.samples_done // now.samples_total
         _output.say(
             f"{percent}%: {now.samples_done:,} of {now.samples_total:,} samples, "
@@ -63,9 +75,10 @@ def _bar() -> Iterator[Reporter]:
     )
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         task = progress.add_task("", total=None)
+        clock = _Clock()
 
         def show(now: RenderProgress) -> None:
-            rate, left = _rate_and_rest(now)
+            rate, left = clock.rate_and_rest(now)
             text = f"{now.samples_done:,} samples, {rate:,.0f}/s, {left} left"
             progress.update(
                 task, total=now.samples_total or None, completed=now.samples_done, description=text

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import sys
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Literal, Unpack
 
 import typer
 
+from lightsieve.cli import _signals
+
 if TYPE_CHECKING:
     from lightsieve import rendering
     from lightsieve._core import CompiledScene
-
-EXIT_INTERRUPTED = 130
 
 Strict = Annotated[bool, typer.Option("--strict", help="Unknown nodes and parameters are errors.")]
 LpeStandard = Annotated[
@@ -32,14 +28,6 @@ Assignments = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="NODE.PARAM=VALUE", help="Change a parameter; may be repeated."),
 ]
-
-
-def _leave(_signal: int, _frame: FrameType | None) -> None:
-    # Compiling cannot be ended half way: leave at once, nothing has been written.
-    print(
-        "stopped by Ctrl-C before the first ray; nothing was written", file=sys.stderr, flush=True
-    )
-    os._exit(EXIT_INTERRUPTED)
 
 
 def compile_scene(
@@ -62,8 +50,7 @@ def compile_scene(
     """
     from lightsieve import rendering
 
-    before = signal.signal(signal.SIGINT, _leave)
-    try:
+    with _signals.end_process():
         return rendering.compile_scene(
             scene,
             capture=False,
@@ -71,5 +58,3 @@ def compile_scene(
             assignments=assignments or (),
             **settings,
         )
-    finally:
-        signal.signal(signal.SIGINT, before)

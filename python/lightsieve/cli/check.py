@@ -72,7 +72,8 @@ def _print_summary(scene: str, summary: SceneSummary) -> None:
         ("scene", scene),
         (
             "frame",
-            f"{summary.width} x {summary.height}, {summary.samples_per_pixel:,} samples a pixel",
+            f"{summary.width} x {summary.height}, "
+            f"{plural(summary.samples_per_pixel, 'sample')} a pixel",
         ),
         ("shapes", f"{summary.n_shapes:,} ({shapes}), placed {summary.n_instances:,} times"),
         ("shaders", f"{summary.n_shaders:,}"),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from lightsieve.cli import _output, _progress, _scene_options
+from lightsieve.cli import _output, _progress, _scene_options, _signals
 from lightsieve.cli.check import count_text
 
 if TYPE_CHECKING:
@@ -110,14 +110,14 @@ def _print_summary(compiled: CompiledScene, outcome: Outcome) -> None:
     typer.echo(count_text(compiled))
 
 
-def _say_stopped(outcome: Outcome) -> None:
+def _say_stopped(outcome: Outcome, cause: str) -> None:
     done = f"{outcome.samples:,} samples were taken"
     where = (
         f"what was done is in {', '.join(outcome.files)}"
         if outcome.files
         else "nothing was written"
     )
-    _output.say(f"stopped by Ctrl-C: {done}; {where}")
+    _output.say(f"stopped by {cause}: {done}; {where}")
 
 
 def command(
@@ -266,19 +266,23 @@ def command(
     compiled = _scene_options.compile_scene(
         path, write_files=True, assignments=assignments, **settings
     )
-    outcome = _run(compiled, silent=silent, json=json)
+    with _signals.interrupt() as came:
+        outcome = _run(compiled, came, silent=silent, json=json)
     if json:
         _output.print_json(_document(path, compiled, outcome))
     elif outcome is not None and not silent:
         _print_summary(compiled, outcome)
-    if outcome is not None and outcome.interrupted:
-        raise typer.Exit(_scene_options.EXIT_INTERRUPTED)
+    if came:
+        raise typer.Exit(_signals.exit_code(came[0]))
     if compiled.n_errors:
         raise typer.Exit(1)
 
 
-def _run(compiled: CompiledScene, *, silent: bool, json: bool) -> Outcome | None:
-    """Renders if that is possible, with diagnostics and progress on standard error."""
+def _run(compiled: CompiledScene, came: list[int], *, silent: bool, json: bool) -> Outcome | None:
+    """Renders if that is possible, with diagnostics and progress on standard error.
+
+    `came` has the signals that came so far.
+    """
 
     def report(first: int) -> int:
         items = compiled.diagnostics
@@ -294,5 +298,5 @@ def _run(compiled: CompiledScene, *, silent: bool, json: bool) -> Outcome | None
         outcome = compiled.render(progress)
     report(n_reported)
     if outcome.interrupted:
-        _say_stopped(outcome)
+        _say_stopped(outcome, _signals.name_of(came[0]))
     return outcome
