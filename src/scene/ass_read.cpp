@@ -67,17 +67,42 @@ class AssReader {
         find_node(text);
     }
 
+    // Recovery looks at characters, not at tokens: after a mistake quotes may be out of step, and looking for the end of
+    // each string from each place would take for ever on hostile files.
+
+    /// The first word after the blanks at `at`; empty if a brace, a quote or the end comes first.
+    static std::string_view word_after(std::string_view all, std::size_t at) {
+        while (at < all.size() && is_ass_blank(all[at])) ++at;
+        std::size_t end = at;
+        while (end < all.size() && !is_ass_blank(all[end]) && all[end] != '{' && all[end] != '}' && all[end] != '"') ++end;
+        return all.substr(at, end - at);
+    }
+
     /// Recovery at file level: goes to the next line that begins with a word and is followed by "{".
     static void find_node(Text& text) {
-        for (;;) {
-            AssLexer ahead = text.lexer;
-            const Token token = ahead.next();
-            if (token.kind == TokenKind::End) break;
-            if (token.kind == TokenKind::Word && token.first_in_line && (ahead.peek() == '{' || text.text(token) == "include")) break;
-            // A string may be one only because quotes are out of step: do not jump over nodes.
-            if (token.kind == TokenKind::String) ahead.seek(token.offset + 1);
-            text.lexer = ahead;
+        const std::string_view all = text.lexer.text();
+        for (std::size_t at = all.find('\n', text.lexer.position()); at != std::string_view::npos; at = all.find('\n', at)) {
+            const std::string_view word = word_after(all, at);
+            const auto end = static_cast<std::size_t>(word.data() + word.size() - all.data());
+            AssLexer ahead(all, end);
+            const char next = word.empty() || word[0] == '#' ? '\0' : ahead.peek();
+            if (next == '{' || (next == '"' && word == "include")) return text.lexer.seek(at);
+            at = std::max(at + 1, end);
         }
+        text.lexer.seek(all.size());
+    }
+
+    /// Recovery in a node: goes to the closing brace or to the next line that may begin with a parameter's name.
+    static void find_param(Text& text) {
+        const std::string_view all = text.lexer.text();
+        for (std::size_t at = text.lexer.position(); at < all.size(); ++at) {
+            if (all[at] == '}') return text.lexer.seek(at);
+            if (all[at] != '\n') continue;
+            const std::string_view word = word_after(all, at);
+            if (parse_param_name(word)) return text.lexer.seek(at);
+            at = static_cast<std::size_t>(word.data() - all.data()) - 1;
+        }
+        text.lexer.seek(all.size());
     }
 
     void node(Text& text, const Token& type) {
@@ -122,15 +147,7 @@ class AssReader {
         const bool quote = token.kind == TokenKind::String;
         diagnostics_.error(Code::AssSyntax, quote ? "a parameter's name is expected, not a string" : "a parameter's name is expected, not \"" + std::string(shown) + "\"",
                            {text.source, token.offset, quote ? 1 : token.length});
-        // Go on at the next line that may begin with a name.
-        for (;;) {
-            AssLexer ahead = text.lexer;
-            const Token next = ahead.next();
-            if (next.kind == TokenKind::End || next.kind == TokenKind::Close) return;
-            if (next.kind == TokenKind::Word && next.first_in_line && parse_param_name(text.text(next))) return;
-            if (next.kind == TokenKind::String && !next.closed) ahead.seek(next.offset + 1);
-            text.lexer = ahead;
-        }
+        find_param(text);
     }
 
     void param(Text& text, const Token& token, NodeBlock& block) {

@@ -138,6 +138,19 @@ TEST(Damage, TruncationsAndNoise) {
     }
 }
 
+/// Would take hours if recovery looked for the end of each string from each place.
+TEST(Damage, RecoveryTakesTimeInProportionToTheText) {
+    const std::size_t n = 200000;
+    for (const std::string line : {"\\\"\n", "\"\\\"", "a \"\n", "{\n", "}\n", "5 5\n", "x[\n", "# \n", "\n", "a\n", "declare\n", "v 9 1 b85UINT Q\n", "\\\" "}) {
+        std::string text = "m\n{\n 5\n";
+        for (std::size_t i = 0; i < n; ++i) text += line;
+        Diagnostics diagnostics;
+        (void)read_ass(text, "t.ass", nullptr, diagnostics);
+        (void)read_ass(text.substr(4), "t.ass", nullptr, diagnostics);
+        EXPECT_TRUE(diagnostics.has_errors());
+    }
+}
+
 // ---- includes ----
 
 ReadFile files(std::map<std::string, std::string> content) {

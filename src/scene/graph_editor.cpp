@@ -26,6 +26,9 @@ constexpr std::array kOldParams{
     OldParam{"ortho_camera", "aspect_ratio"},
 };
 
+/// Names that are compared with misspelt ones before guessing ends.
+constexpr std::size_t kMaxCompared = 1000000;
+
 bool is_old_param(Name type, Name param) {
     return std::any_of(kOldParams.begin(), kOldParams.end(), [&](const OldParam& old) { return old.param == param.view() && (old.type.empty() || old.type == type.view()); });
 }
@@ -397,13 +400,13 @@ GraphEditor::Found GraphEditor::find_source(const std::string& text, const Sourc
     // Names may contain dots, so only now is the last one looked at.
     const std::size_t dot = text.rfind('.');
     if (dot == std::string::npos || dot == 0 || graph_.skipped_types_.contains(Name(text))) {
-        missing_node(text, where);
+        missing_node(text, where, Severity::Error);
         return {};
     }
     const std::string name = text.substr(0, dot), suffix = text.substr(dot + 1);
     const NodeInstance* node = graph_.find(Name(name));
     if (node == nullptr) {
-        missing_node(graph_.skipped_types_.contains(Name(name)) ? name : text, where);
+        missing_node(graph_.skipped_types_.contains(Name(name)) ? name : text, where, Severity::Error);
         return {};
     }
     const std::int8_t component = parse_component(suffix);
@@ -414,11 +417,12 @@ GraphEditor::Found GraphEditor::find_source(const std::string& text, const Sourc
 
 const NodeInstance* GraphEditor::find_node(const std::string& name, const SourceSpan& where) {
     if (const NodeInstance* node = graph_.find(Name(name))) return node;
-    missing_node(name, where);
+    // Arnold renders shapes whose shader is missing, and exported scenes have such: a value that is missing is worse.
+    missing_node(name, where, unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning);
     return nullptr;
 }
 
-void GraphEditor::missing_node(const std::string& name, const SourceSpan& where) {
+void GraphEditor::missing_node(const std::string& name, const SourceSpan& where, Severity severity) {
     const auto skipped = graph_.skipped_types_.find(Name(name));
     if (skipped != graph_.skipped_types_.end()) {
         if (unknown_ != UnknownPolicy::Ignore)
@@ -426,56 +430,68 @@ void GraphEditor::missing_node(const std::string& name, const SourceSpan& where)
         return;
     }
     std::string hint;
-    // Comparing with every name is slow in large scenes and of no use once reports are only counted.
-    if (diagnostics_->n_errors() < Diagnostics::kMaxErrors) {
+    // Comparing with every name of a large scene again and again would take longer than reading it.
+    if (n_compared_ < kMaxCompared) {
+        n_compared_ += graph_.names_.size();
         std::vector<std::string> names;
         for (const auto& [known, node] : graph_.names_) names.push_back(known.str());
         hint = did_you_mean(name, names);
     }
-    diagnostics_->error(Code::UnknownReference, fmt::format("the scene has no node \"{}\"", name), where, hint);
+    diagnostics_->add({Code::UnknownReference, fmt::format("the scene has no node \"{}\"", name), where, hint, {}, severity});
 }
 
 // ---- edits ----
 
+std::optional<ValueText> GraphEditor::lex_edit(const ParamInfo& info, std::string_view param, std::string_view value, std::shared_ptr<const SourceText>& source) {
+    const std::string name = fmt::format("<{}>", param);
+    const auto lex = [&](std::string text, Diagnostics& report) -> std::optional<ValueText> {
+        source = std::make_shared<const SourceText>(SourceText{name, std::move(text)});
+        AssLexer lexer(source->text);
+        std::optional<ValueText> read = lex_value(lexer, source, 0, param, report);
+        if (!read || lexer.peek() == '\0') return read;
+        report.error(Code::AssSyntax, "one value is expected", {source, lexer.position(), 1}, "a text with blanks needs quotes");
+        return std::nullopt;
+    };
+    if (info.type == ParamType::String && !value.starts_with('"')) {
+        // On a command line texts have no quotes of their own.
+        Diagnostics unused;
+        std::optional<ValueText> read = lex(std::string(value), unused);
+        return read && read->form == ValueForm::Array ? read : lex(quote_ass(value), *diagnostics_);
+    }
+    return lex(std::string(value), *diagnostics_);
+}
+
 bool GraphEditor::set(NodeInstance& node, std::string_view param, std::string_view value) {
     const std::optional<ParamName> name = parse_param_name(param);
     const ParamInfo* info = name ? node.type().find(Name(name->base)) : nullptr;
+    const std::string target = fmt::format("{}.{}", node.name().view(), param);
     if (info == nullptr) {
+        const std::string guess = did_you_mean(name ? name->base : param, param_names(node.type()));
         diagnostics_->error(Code::UnknownParam, fmt::format("{} has no parameter \"{}\"", node.type().name.view(), param), {},
-                            fmt::format("{}   `lightsieve nodes {}` lists all of them", did_you_mean(name ? name->base : param, param_names(node.type())), node.type().name.view()));
+                            fmt::format("{}`lightsieve nodes {}` lists all of them", guess.empty() ? "" : guess + "   ", node.type().name.view()));
         return false;
     }
-    // On a command line texts have no quotes of their own.
-    std::string text(value);
-    Diagnostics unused;
-    const auto lexed = [&](const std::shared_ptr<const SourceText>& source, Diagnostics& report) {
-        AssLexer lexer(source->text);
-        std::optional<ValueText> read = lex_value(lexer, source, 0, param, report);
-        if (read && lexer.peek() == '\0') return read;
-        if (read) report.error(Code::AssSyntax, "one value is expected", {source, lexer.position(), 1}, "a text with blanks needs quotes");
-        return std::optional<ValueText>();
-    };
-    const auto source_of = [&](std::string content) { return std::make_shared<const SourceText>(SourceText{fmt::format("<{}.{}>", node.name().view(), param), std::move(content)}); };
-    std::shared_ptr<const SourceText> source = source_of(text);
-    const bool quote = info->type == ParamType::String && (text.empty() || (text[0] != '"' && !(lexed(source, unused) && lexed(source, unused)->form == ValueForm::Array)));
-    if (quote) source = source_of(quote_ass(text));
-    const std::optional<ValueText> read = lexed(source, *diagnostics_);
+    std::shared_ptr<const SourceText> source;
+    const std::optional<ValueText> read = lex_edit(*info, target, value, source);
     if (!read) return false;
     const ParamText statement{Name(name->base), name->element, name->component, {}, {0, 0, 0}, *read};
 
     // Keep what an error must bring back.
     const std::size_t n_errors = diagnostics_->n_errors(), index = index_of(node, *info);
-    std::vector<std::byte> block(node.block_, node.block_ + node.type().block_size);
+    const std::vector<std::byte> block(node.block_, node.block_ + node.type().block_size);
     const std::vector<Link> links = node.links_;
     const SourceSpan written = node.written_[index];
     const bool was_set = node.set_[index];
-    std::erase_if(node.links_, [&](const Link& link) { return link.param == info && (name->element < 0 || link.element == name->element) && (name->component < 0 || link.component == name->component); });
+    std::erase_if(node.links_, [&](const Link& link) {
+        return link.param == info && (name->element < 0 || link.element == name->element) && (name->component < 0 || link.component == name->component);
+    });
     given_.assign(node.type().params.size(), false);
     read_param(node, {&statement, source, source});
     if (diagnostics_->n_errors() == n_errors) check_cycles({&node}, false);
     report_repeated();
     if (diagnostics_->n_errors() == n_errors) return true;
-    std::memcpy(node.block_, block.data(), block.size());
+
+    std::copy(block.begin(), block.end(), node.block_);
     node.links_ = links;
     node.written_[index] = written;
     node.set_[index] = was_set;
@@ -493,13 +509,11 @@ void GraphEditor::check_cycles(const std::vector<NodeInstance*>& starts, bool cu
         std::size_t at = 0;
     };
     std::unordered_map<const NodeInstance*, Mark> marks;
-    std::unordered_map<const NodeInstance*, NodeInstance*> own;
-    for (const auto& node : graph_.nodes_) own.emplace(node.get(), node.get());
     // Only nodes of one kind can need each other in a circle; a shape and its mesh light name each other rightfully.
     const auto step_of = [&](NodeInstance* node) {
         Step step{node, {}, 0};
         for (const NodeInstance* other : node->references())
-            if (other->kind() == node->kind()) step.next.push_back(own.at(other));
+            if (other->kind() == node->kind()) step.next.push_back(const_cast<NodeInstance*>(other));  // the graph owns them all
         return step;
     };
     for (NodeInstance* start : starts) {

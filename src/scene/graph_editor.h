@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,7 +64,8 @@ class GraphEditor {
     /// The node and component that `text` names. Reports and gives null if there is none.
     Found find_source(const std::string& text, const SourceSpan& where);
     const NodeInstance* find_node(const std::string& name, const SourceSpan& where);
-    void missing_node(const std::string& name, const SourceSpan& where);
+    /// A warning if the node is there but of an unknown type, else a report of that severity.
+    void missing_node(const std::string& name, const SourceSpan& where, Severity severity);
 
     void store(NodeInstance& node, const ParamInfo& info, const ParamText& param, TypedValues values);
     bool grow_array(NodeInstance& node, const ParamInfo& info, std::int64_t element, const SourceSpan& where);
@@ -78,6 +80,9 @@ class GraphEditor {
     void repeated(const std::string& key, Error error);
     void report_repeated();
 
+    /// The value of an edit; `source` becomes the text that it lies in.
+    std::optional<ValueText> lex_edit(const ParamInfo& info, std::string_view param, std::string_view value, std::shared_ptr<const SourceText>& source);
+
     static std::size_t index_of(const NodeInstance& node, const ParamInfo& info);
     static std::byte* address(NodeInstance& node, const ParamInfo& info);
 
@@ -89,6 +94,7 @@ class GraphEditor {
     std::map<std::string, std::size_t> repeated_index_;
     std::vector<bool> given_;  ///< of the node being read: parameters that have a whole value
     std::uint64_t run_bytes_ = 0;
+    std::size_t n_compared_ = 0;  ///< names looked at for "did you mean"
     std::vector<NodeInstance::Buffer> retired_;  ///< replaced arrays, kept for a roll-back
 };
 
