@@ -13,7 +13,10 @@
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <set>
 
@@ -35,9 +38,14 @@ using IMATH_NAMESPACE::Box2i;
          "write the file again, or check how it was copied");
 }
 
+/// Larger tiles are a sign of damage; OpenEXR would take memory for them before it looks at the file's length.
+constexpr int kMaxTileSize = 8192;
+
 /// Runs `body`; what OpenEXR throws becomes an InputError about `path`.
 template <class Body>
 auto guarded(const std::string& path, const Body& body) {
+    // A limit of the whole process; setting it again changes nothing.
+    exr::Header::setMaxTileSize(kMaxTileSize, kMaxTileSize);
     try {
         return body();
     } catch (const InputError&) {
@@ -58,6 +66,47 @@ void check_exists(const std::string& path) {
     if (std::filesystem::is_directory(path, ec))
         fail(Code::FileUnreadable, "\"" + path + "\" is a folder",
              "give the name of an OpenEXR file");
+}
+
+/// Four bytes, the lowest first.
+std::uint32_t read_word(std::istream& in) {
+    std::array<unsigned char, 4> bytes{};
+    in.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        word |= std::uint32_t{bytes[i]} << (8 * i);
+    return word;
+}
+
+/// Walks over the attributes of all headers and checks that each ends within the file: OpenEXR takes memory for an
+/// attribute's length, whatever it says, before it reads. Anything else that is wrong is left to OpenEXR.
+/// Source: "OpenEXR File Layout", Component Three.
+void check_attribute_sizes(const std::string& path) {
+    constexpr std::size_t kMaxName = 256;
+    constexpr std::uint32_t kMagic = 20000630, kMultipartFlag = 0x1000;
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    const std::streamoff end = in.tellg();
+    in.seekg(0);
+    if (read_word(in) != kMagic) return;
+    const std::uint32_t version = read_word(in);
+    std::string name, type;
+    for (bool header_began = false; in;) {
+        std::getline(in, name, '\0');
+        if (name.size() > kMaxName) return;
+        if (name.empty()) {
+            // An empty name ends a header; the only one, or the list of them if there is nothing before it.
+            if (!header_began || (version & kMultipartFlag) == 0) return;
+            header_began = false;
+            continue;
+        }
+        header_began = true;
+        std::getline(in, type, '\0');
+        const std::uint32_t size = read_word(in);
+        if (!in) return;
+        if (size > end - in.tellg())
+            damaged(path, "its header attribute \"" + name + "\" is longer than the file");
+        in.seekg(size, std::ios::cur);
+    }
 }
 
 ExrPixelType our_type(exr::PixelType type) {
@@ -202,6 +251,7 @@ const ExrReadChannel* ExrFile::find(const std::string& name) const {
 ExrFile read_exr_header(const std::string& path) {
     check_exists(path);
     return guarded(path, [&] {
+        check_attribute_sizes(path);
         const exr::MultiPartInputFile file(path.c_str(), 0);
         return read_headers(path, file);
     });
@@ -210,6 +260,7 @@ ExrFile read_exr_header(const std::string& path) {
 ExrFile read_exr(const std::string& path, std::size_t max_bytes) {
     check_exists(path);
     return guarded(path, [&] {
+        check_attribute_sizes(path);
         exr::MultiPartInputFile file(path.c_str(), 0);
         ExrFile out = read_headers(path, file);
         const std::size_t n_pixels =
