@@ -25,6 +25,7 @@ struct LobeRecord {
     EventKind kind = EventKind::Reflection;
     EventLobe lobe = EventLobe::Diffuse;
     bool subsurface = false;                   ///< scatters like TD, but counts as a subsurface ray
+    bool exit_to_background = false;           ///< rays past their depth limit see the background instead of black
 };
 
 /// One weighted lobe.

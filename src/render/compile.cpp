@@ -96,6 +96,7 @@ void Compiler::read_settings() {
     s.auto_transparency_depth = option<std::int32_t>("auto_transparency_depth", 10);
     s.sample_clamp = option("AA_sample_clamp", kInfinity);
     s.indirect_clamp = option("indirect_sample_clamp", 10.0F);
+    s.low_light_threshold = option("low_light_threshold", 0.001F);
     s.roulette_depth = options_.roulette_depth;
     scene_->capture = options_.capture;
     scene_->write_files = options_.write_files;

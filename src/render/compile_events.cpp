@@ -57,6 +57,9 @@ void Compiler::fill_records() {
         shader->records.clear();
         for (const LobeInfo& lobe : shader->type().lobes)
             fill(shader->records.emplace_back(), event_of(lobe));
+        if (const ParamInfo* exit = shader->type().find("exit_to_background"); exit != nullptr && exit->type == ParamType::Bool)
+            for (LobeRecord& record : shader->records)
+                record.exit_to_background = *reinterpret_cast<const bool*>(shader->block() + exit->offset);
         if (shader->type().eval_closure == nullptr) fill(shader->records.emplace_back(), kUnlit);
     }
     for (SceneLight& light : scene_->lights) {

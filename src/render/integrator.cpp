@@ -50,11 +50,13 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time, const M
     footprint_ = {camera_ray.width, camera_ray.spread};
     passed_ = kWhite;
     n_scatter_ = n_transparent_ = 0;
+    exit_pending_ = false;
     Ray ray{camera_ray.origin, camera_ray.direction, camera_ray.t_min, camera_ray.t_max, time};
 
     for (segment_ = 0; segment_ < kMaxSegments && wanted(); ++segment_) {
         // Find the next surface, and the lights before it.
         choose_mask_group();
+        if (exit_pending_) add_exit_background(ray);
         lights_only_ = std::all_of(groups_.all().begin(), groups_.all().end(), [](const PathGroup& g) { return g.key.lights_only; });
         RayHit hit;
         ++counts.rays;
@@ -250,17 +252,32 @@ void Integrator<Tracker>::add_escape(const Ray& ray) {
         deposit(terminal, [&](std::size_t g) { return eval.radiance * (weight * light_factor(light.common, groups_[g].key.ray_type, n_scatter_)); });
     }
     if (scene_.background != nullptr && !lights_only_) {
-        ShadePoint at;
-        at.direction = ray.direction;
-        at.wo = -ray.direction;
-        at.ray_type = groups_[0].key.ray_type;
-        at.uv = {0.5F - std::atan2(ray.direction.x, ray.direction.z) * (0.5F * kInvPi), 0.5F + std::asin(std::clamp(ray.direction.y, -1.0F, 1.0F)) * kInvPi};
-        const Color radiance = scene_.background->value(at).rgb;
+        const Color radiance = background_along(ray);
         const auto visible = [&](std::size_t g) { return (scene_.background_visibility & bit_of(groups_[g])) != 0 && !groups_[g].key.lights_only; };
         deposit({scene_.background_record.terminal, scene_.background_record.event}, [&](std::size_t g) { return visible(g) ? radiance : kBlack; });
         if (n_scatter_ == 0 && visible(0)) alpha = 1;
     }
     if (n_scatter_ == 0) out_->alpha += average(passed_) * alpha;
+}
+
+/// exit_to_background: shares past their depth limit take the background in place of what the ray would meet.
+template <class Tracker>
+void Integrator<Tracker>::add_exit_background(const Ray& ray) {
+    exit_pending_ = false;
+    if (scene_.background == nullptr) return;
+    const Color radiance = background_along(ray);
+    deposit({scene_.background_record.terminal, scene_.background_record.event},
+            [&](std::size_t g) { return groups_[g].key.exits && (scene_.background_visibility & bit_of(groups_[g])) != 0 ? radiance : kBlack; });
+}
+
+template <class Tracker>
+Color Integrator<Tracker>::background_along(const Ray& ray) const {
+    ShadePoint at;
+    at.direction = ray.direction;
+    at.wo = -ray.direction;
+    at.ray_type = groups_[0].key.ray_type;
+    at.uv = {0.5F - std::atan2(ray.direction.x, ray.direction.z) * (0.5F * kInvPi), 0.5F + std::asin(std::clamp(ray.direction.y, -1.0F, 1.0F)) * kInvPi};
+    return scene_.background->value(at).rgb;
 }
 
 /// Alpha, and what data layers show: the first surface that is not wholly transparent.
@@ -361,10 +378,12 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
     const bool samples_only = light.samples_only || !object.receive_shadows || !object.shadow_lights.empty();
     const float pdf_light = pick.probability * sample.pdf;
     const float weight = sample.delta || samples_only ? 1 : power_heuristic(pdf_light, pdf_lobes);
+    const float kept = low_light_survival(value, light, sample.radiance * (weight / pdf_light));
+    if (kept < 1 && random(2) >= kept) return;
     const Visibility visible = visibility(surface, pick.light, sample);
     if (is_black(visible.tinted)) return;
     // What came through glass has no twin among the rays (diffuse rays end at glass), so its light sample stands alone.
-    const Color arriving = sample.radiance * (1 / pdf_light);
+    const Color arriving = sample.radiance * (1 / (pdf_light * kept));
     const Color to_specular = arriving * visible.straight * weight;
     const Color to_diffuse = to_specular + arriving * (visible.tinted - visible.straight);
     const bool background = light.is_skydome && light.common.aov_indirect;
@@ -376,6 +395,22 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
         const Color incident = record.lobe == EventLobe::Specular ? to_specular : to_diffuse;
         return value[c] * incident * light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface), n_scatter_ + 1);
     });
+}
+
+/// low_light_threshold: how likely a light sample that brings less than the threshold is worth its shadow ray.
+template <class Tracker>
+float Integrator<Tracker>::low_light_survival(std::span<const Color> by_channel, const SceneLight& light, Color incident) const {
+    const float threshold = scene_.settings.low_light_threshold;
+    if (!(threshold > 0)) return 1;
+    Color brought;
+    for (const PathGroup& group : groups_.all())
+        for (std::size_t c = 0; c < n_channels_; ++c) {
+            if (group.key.lights_only || !channel_allowed(group.key, channels_[c])) continue;
+            const LobeRecord& record = *channels_[c].record;
+            brought += group.throughput * by_channel[c] * incident * light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface), n_scatter_ + 1);
+        }
+    const float brightest = max_component(brought);
+    return brightest < threshold ? std::max(brightest / threshold, kLeastSurvival) : 1;
 }
 
 template <class Tracker>
@@ -508,6 +543,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     ++n_scatter_;
     if (is_black(groups_.total())) return false;
     if (!survives_roulette()) return false;
+    exit_pending_ = std::any_of(groups_.all().begin(), groups_.all().end(), [](const PathGroup& g) { return g.key.exits; });
 
     const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
     last_ = {surface.at.position, transmissive_ ? Vec3f{0, 0, 0} : surface.outward, surface.object->lights, pdf, delta,

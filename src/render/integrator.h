@@ -66,6 +66,8 @@ class Integrator {
     [[nodiscard]] std::uint32_t ray_mask() const;
     bool add_area_lights(const Ray& ray, float t_surface);
     void add_escape(const Ray& ray);
+    void add_exit_background(const Ray& ray);
+    [[nodiscard]] Color background_along(const Ray& ray) const;
     void note_first_hit(const Surface& surface, const Mat4f& camera_from_world);
     void add_emission();
     void gather_channels();
@@ -84,6 +86,7 @@ class Integrator {
     /// How much light gets from the light to the surface.
     [[nodiscard]] Visibility visibility(const Surface& surface, std::uint32_t light, const LightSample& sample);
     [[nodiscard]] Visibility visibility_along(Ray ray, const SceneObject* ignore);
+    [[nodiscard]] float low_light_survival(std::span<const Color> by_channel, const SceneLight& light, Color incident) const;
     /// Values by channel for a direction, and the mixture's density.
     float evaluate(const Surface& surface, Vec3f wi, std::span<Color> by_channel) const;
     [[nodiscard]] float light_factor(const LightCommon& light, RayType type, int n_scatter) const;
@@ -104,6 +107,7 @@ class Integrator {
     std::uint32_t segment_ = 0;
     int n_scatter_ = 0;           ///< scattering events so far
     int n_transparent_ = 0;       ///< transparent surfaces passed
+    bool exit_pending_ = false;   ///< the ray just left a surface past a depth limit with exit_to_background
     bool lights_only_ = false;    ///< no share of the path may meet anything but lights
 
     // Of the current vertex.

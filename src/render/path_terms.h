@@ -34,10 +34,12 @@ struct DepthLimits {
 /// Depth counters and last ray type of a share of a path.
 struct GroupKey {
     std::uint8_t diffuse = 0, specular = 0, transmission = 0, volume = 0;
+    std::uint8_t forgotten = 0;  ///< bounces of which only the number still matters, see DepthRules
     RayType ray_type = RayType::Camera;
     bool lights_only = false;  ///< past a depth limit: the ray may still meet lights, everything else is black
+    bool exits = false;        ///< past a depth limit, and the shader says exit_to_background
     friend bool operator==(const GroupKey&, const GroupKey&) = default;
-    [[nodiscard]] int total() const { return diffuse + specular + transmission + volume; }
+    [[nodiscard]] int total() const { return diffuse + specular + transmission + volume + forgotten; }
 };
 
 /// The ray that leaves a vertex through a lobe.
@@ -56,7 +58,7 @@ struct Channel {
     [[nodiscard]] bool matches(const Closure& closure) const {
         const LobeRecord& a = *record;
         const LobeRecord& b = *closure.record;
-        return a.event == b.event && a.kind == b.kind && a.lobe == b.lobe && a.subsurface == b.subsurface && caustics == closure.caustics;
+        return a.event == b.event && a.kind == b.kind && a.lobe == b.lobe && a.subsurface == b.subsurface && a.exit_to_background == b.exit_to_background && caustics == closure.caustics;
     }
 };
 
@@ -78,36 +80,32 @@ class DepthRules {
         ++counter;
         key.lights_only = key.diffuse > limits_.diffuse || key.specular > limits_.specular || key.transmission > limits_.transmission ||
                           key.volume > limits_.volume || key.total() > limits_.total;
+        key.exits = key.lights_only && through.exit_to_background;
         key.ray_type = type_matters_[static_cast<std::size_t>(type)] ? type : RayType::SpecularReflect;
         return canonical(key);
     }
 
   private:
-    /// Moves counts between counters whose limits can no longer bind before the total does, so that equal futures are equal keys.
+    /// Forgets the counts of kinds whose limit can no longer bind before the total does, so that equal futures are equal keys.
+    /// A kind that is free once stays so: each event takes at most one from its limit and exactly one from the total's rest.
     [[nodiscard]] GroupKey canonical(GroupKey key) const {
         const int total = key.total();
         if (key.lights_only) {
             // Only the number of bounces still matters (indirect multipliers, max_bounces), not their kinds.
-            key.specular = key.transmission = key.volume = 0;
-            key.diffuse = static_cast<std::uint8_t>(total);
+            key.diffuse = key.specular = key.transmission = key.volume = 0;
+            key.forgotten = static_cast<std::uint8_t>(total);
             return key;
         }
         const int left = limits_.total - total;
-        const auto free = [&](int used, int limit) { return limit - used >= left; };
-        // Counts of free counters are gathered in the first free one: the total stays.
-        int gathered = 0;
-        std::uint8_t* keeper = nullptr;
-        const auto gather = [&](std::uint8_t& used, int limit) {
-            if (!free(used, limit)) return;
-            gathered += used;
+        const auto forget = [&](std::uint8_t& used, int limit) {
+            if (limit - used < left) return;
+            key.forgotten = static_cast<std::uint8_t>(key.forgotten + used);
             used = 0;
-            if (keeper == nullptr) keeper = &used;
         };
-        gather(key.diffuse, limits_.diffuse);
-        gather(key.specular, limits_.specular);
-        gather(key.transmission, limits_.transmission);
-        gather(key.volume, limits_.volume);
-        if (keeper != nullptr) *keeper = static_cast<std::uint8_t>(gathered);
+        forget(key.diffuse, limits_.diffuse);
+        forget(key.specular, limits_.specular);
+        forget(key.transmission, limits_.transmission);
+        forget(key.volume, limits_.volume);
         return key;
     }
 

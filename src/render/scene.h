@@ -65,6 +65,7 @@ struct RenderSettings {
     int auto_transparency_depth = 10;
     float sample_clamp = kInfinity;    ///< AA_sample_clamp
     float indirect_clamp = 10;         ///< indirect_sample_clamp
+    float low_light_threshold = 0.001F;  ///< light samples below it are traced only sometimes
     int roulette_depth = 4;
     float shutter_start = 0, shutter_end = 0;
 };

@@ -187,7 +187,7 @@ Verdict check_oracle(const Scene& scene, const Picture& picture, std::span<const
         if (layer.source != LayerSource::Expression && layer.source != LayerSource::Beauty) continue;
         std::vector<bool> takes(kinds.size());
         for (std::size_t k = 0; k < takes.size(); ++k)
-            takes[k] = in_group(layer, events[k].back()) && lpe::testing::naive_match(*layer.expr, events[k]);
+            takes[k] = in_group(layer, events[k].back()) && lpe::testing::naive_match(layer.expr, events[k]);
         std::vector<std::array<double, 3>> sums(picture.n_pixels());
         for (const LoggedPath& path : paths) {
             if (!takes[kinds.at(path.events)]) continue;
