@@ -67,7 +67,7 @@ TEST(ClosureSet, TurnsDirectionsToTheWorld) {
     const Vec3f n = normalize({1, 2, -0.5F}), wo = normalize({0.3F, 1, 0.2F});
     ClosureSet set = begun(wo, Frame::from_z(n));
     set.add(1, DielectricReflect(GgxAlpha(0), 1.5F), Color(0.5F, 1, 1));
-    set.add(0, DiffuseReflect(Color::grey(0.8F)), kWhite);
+    set.add(0, DiffuseReflect(Color::grey(0.8F)), Color::grey(0.25F));
     ASSERT_EQ(set.closures().size(), 2U);
 
     // A mirror reflects about the normal, its weight is Fresnel times the closure's.
@@ -79,7 +79,7 @@ TEST(ClosureSet, TurnsDirectionsToTheWorld) {
 
     const Vec3f wi = normalize(n + Vec3f{0.2F, 0, 0.3F});
     EXPECT_FALSE(set.delta(1));
-    EXPECT_NEAR(set.eval(1, wi).f.r, 0.8F * kInvPi * dot(wi, n), 1e-6F);
+    EXPECT_NEAR(set.eval(1, wi).f.r, 0.25F * 0.8F * kInvPi * dot(wi, n), 1e-6F);
     EXPECT_EQ(set.eval(1, -wi).f, kBlack);
     EXPECT_EQ(set.eval(0, wi).pdf, 0);
 }
