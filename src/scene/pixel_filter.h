@@ -14,7 +14,7 @@ class PixelFilter {
     [[nodiscard]] virtual float eval(Vec2f offset) const = 0;
     struct Sample {
         Vec2f offset;      ///< from the pixel's centre, in pixels
-        float weight = 1;  ///< eval / pdf; +-constant for filters with negative lobes
+        float weight = 1;  ///< eval / (pdf * integral of eval): 1, or +-a constant for filters with negative lobes
     };
     [[nodiscard]] virtual Sample sample(Vec2f u) const = 0;
     /// Density of sample() at an offset, per square pixel.
