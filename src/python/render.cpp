@@ -157,6 +157,8 @@ void add_options(nb::module_& module) {
         .def_rw("lpe_table", &RenderOptions::lpe_table, "Empty, `reference` or `arnold7`.")
         .def_rw("isa", &RenderOptions::isa,
                 "Empty, `sse2`, `avx2` or `avx512`: pins the ray kernels.")
+        .def_rw("roulette_depth", &RenderOptions::roulette_depth,
+                "Scatterings before Russian roulette may end a path; negative: never.")
         .def_rw("capture", &RenderOptions::capture, "Keep the layers in memory.")
         .def_rw("write_files", &RenderOptions::write_files, "Hand the pixels to the drivers.")
         .def(
