@@ -64,17 +64,22 @@ void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offs
             sums.weight[pixel] += weight;
             ++sums.count[pixel];
             sums.alpha[pixel] += double{sample.alpha} * weight;
-            add_light(sums, pixel, sample, double{scale} * weight);
+            add_light(sums, pixel, sample, double{scale}, weight);
         }
         if (wants_data_ || sums.closest) add_data(sums, pixel, sample, offset, weight);
     }
 }
 
-void Film::add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double factor) {
-    add_to(sums.beauty[pixel], sample.beauty, factor);
+void Film::add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp, double weight) {
+    add_to(sums.beauty[pixel], sample.beauty, clamp * weight);
+    add_to_atoms(sums, pixel, sample.contributions, clamp * weight);
+    add_to_atoms(sums, pixel, sample.probes, weight);
+}
+
+void Film::add_to_atoms(ViewSums& sums, std::size_t pixel, std::span<const SampleBuffer::Contribution> contributions, double factor) {
     const lpe::Program& program = *plan_.program;
     const bool atoms = program.film_stores_atoms();
-    for (const SampleBuffer::Contribution& c : sample.contributions) {
+    for (const SampleBuffer::Contribution& c : contributions) {
         if (atoms) {
             add_to(slot(sums, c.atom)[pixel], c.value, factor);
             continue;

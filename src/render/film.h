@@ -35,13 +35,15 @@ struct SampleBuffer {
     Color beauty;
     float alpha = 0;
     FirstHit first;
-    std::vector<Contribution> contributions;
+    std::vector<Contribution> contributions;  ///< light
+    std::vector<Contribution> probes;         ///< albedo: clamping leaves them alone
 
     void clear() {
         beauty = {};
         alpha = 0;
         first = {};
         contributions.clear();
+        probes.clear();
     }
 };
 
@@ -82,7 +84,9 @@ class Film {
         bool closest = false;
     };
     std::vector<Sum>& slot(ViewSums& sums, std::uint32_t key);
-    void add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double factor);
+    /// clamp, weight  factors of clamping and of the filter
+    void add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp, double weight);
+    void add_to_atoms(ViewSums& sums, std::size_t pixel, std::span<const SampleBuffer::Contribution> contributions, double factor);
     void add_data(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, Vec2f offset, double weight);
     /// What a pixel's sums are multiplied by to become means.
     [[nodiscard]] double norm_of(const ViewSums& sums, std::size_t pixel) const;

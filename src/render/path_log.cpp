@@ -44,7 +44,7 @@ std::vector<LoggedPath> log_paths(const Scene& scene) {
                 integrator.trace(sample.ray, sample.time, sample.camera_from_world, sample.sampler, buffer);
                 const float scale = sample_clamp_factor(scene, buffer.beauty);
                 for (std::size_t p = first; p < log.paths.size(); ++p)
-                    log.paths[p].value *= scale;
+                    if (log.paths[p].events.back() != scene.probe_event) log.paths[p].value *= scale;
             }
     return std::move(log.paths);
 }

@@ -33,7 +33,7 @@ struct AutomatonMachine {
 /// Adds light to atoms. One set of terms for each automaton.
 class AovTracker {
   public:
-    explicit AovTracker(const Scene& scene) {
+    explicit AovTracker(const Scene& scene) : probe_event_(scene.probe_event) {
         for (std::size_t i = 0; i < scene.plan.program->n_automata(); ++i)
             sets_.push_back({{&scene.plan.program->automaton(i)}, {}});
     }
@@ -69,7 +69,7 @@ class AovTracker {
         for (const Set& set : sets_)
             for (const auto& t : set.terms.all()) {
                 const lpe::AtomId atom = set.machine.automaton->atom(t.state, terminal.id);
-                if (atom != lpe::kNoAtom) store(atom, t.throughput * value(t.group) * scale);
+                if (atom != lpe::kNoAtom) store(terminal, atom, t.throughput * value(t.group) * scale);
             }
     }
     /// Light that arrives after scattering by each channel: value(group, channel).
@@ -80,7 +80,7 @@ class AovTracker {
                 for (std::size_t c = 0; c < channels.size(); ++c) {
                     const lpe::State state = set.machine.step(t.state, *channels[c].record);
                     const lpe::AtomId atom = set.machine.automaton->atom(state, terminal.id);
-                    if (atom != lpe::kNoAtom) store(atom, t.throughput * value(t.group, c) * scale);
+                    if (atom != lpe::kNoAtom) store(terminal, atom, t.throughput * value(t.group, c) * scale);
                 }
     }
 
@@ -89,12 +89,13 @@ class AovTracker {
         AutomatonMachine machine;
         PathTerms<AutomatonMachine> terms;
     };
-    void store(lpe::AtomId atom, Color value) {
-        if (!is_black(value)) out_->contributions.push_back({atom, value});
+    void store(Terminal terminal, lpe::AtomId atom, Color value) {
+        if (!is_black(value)) (terminal.event == probe_event_ ? out_->probes : out_->contributions).push_back({atom, value});
     }
 
     std::vector<Set> sets_;
     SampleBuffer* out_ = nullptr;
+    std::uint32_t probe_event_;
 };
 
 }  // namespace lightsieve
