@@ -1,6 +1,9 @@
 // Laws that the AOVs of any picture obey, on scenes that together have every lobe, every kind of light and groups.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+
 #include "lpe/algebra.h"
 #include "lpe/builtins.h"
 #include "render/testing/checks.h"
@@ -229,22 +232,19 @@ TEST(Albedo, DiffuseOverAlbedoIsTheLightingWithoutTexture) {
                              node("lambert", "surface", " Kd 1\n Kd_color checks") + floor("plane", 0, 50, "surface") + node("skydome_light", "sky", " color 1 0.5 2");
     const Picture picture = render(text, in_memory({"diffuse", "diffuse_albedo", "albedo", "denoise_albedo"}));
     const Color light(1, 0.5F, 2);
-    std::size_t n = 0, n_textures = 0;
-    float darkest = 1, brightest = 0;
-    for (std::size_t i = 0; i < picture.n_pixels(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            const float albedo = picture.color("diffuse_albedo", i)[c];
-            if (picture.alpha("RGBA", i) < 1) continue;
-            ASSERT_GT(albedo, 0);
-            // A cosine-weighted direction to an even dome carries the same whatever it is: no noise at all.
-            EXPECT_NEAR(picture.color("diffuse", i)[c] / albedo, light[c], 2e-5F * light[c]);
-            ++n;
-            darkest = std::min(darkest, albedo);
-            brightest = std::max(brightest, albedo);
+    // Cells of both colours alike: 2 times 3 comparisons, a false alarm in 25000 seeds.
+    std::array<std::array<std::vector<double>, 3>, 2> ratios;
+    for (std::size_t i = 0; i < picture.n_pixels(); ++i) {
+        if (picture.alpha("RGBA", i) < 1) continue;
+        const Color albedo = picture.color("diffuse_albedo", i), diffuse = picture.color("diffuse", i);
+        for (std::size_t c = 0; c < 3; ++c)
+            ratios[albedo.r > 0.5F ? 1 : 0][c].push_back(static_cast<double>(diffuse[static_cast<int>(c)] / albedo[static_cast<int>(c)]));
+    }
+    for (std::size_t cell : {0U, 1U})
+        for (std::size_t c = 0; c < 3; ++c) {
+            ASSERT_GT(ratios[cell][c].size(), 60U) << "the texture must show in the albedo";
+            EXPECT_TRUE(check_mean_of(ratios[cell][c], static_cast<double>(light[static_cast<int>(c)]), cell == 0 ? "dark cells" : "bright cells"));
         }
-    n_textures = brightest > 2 * darkest ? 1 : 0;
-    EXPECT_GT(n, 300U);
-    EXPECT_EQ(n_textures, 1U) << "the texture must show in the albedo";
     EXPECT_TRUE(check_equal(picture, "diffuse_albedo", picture, "albedo"));
     EXPECT_TRUE(check_equal(picture, "diffuse_albedo", picture, "denoise_albedo"));
 }
@@ -310,7 +310,7 @@ TEST(Determinism, ThreadsAndBucketsDoNotMatter) {
     RenderOptions options = in_memory(aovs);
     const Picture one = render(TestScene(text, options, {"caustics"}));
     options.threads = 2;
-    for (const char* size : {"8", "5", "64"}) {
+    for (const char* size : {"8", "13", "64"}) {
         std::string cut = text;
         cut.replace(cut.find("AA_samples 2"), 12, std::string("AA_samples 2\n bucket_size ") + size);
         const Picture two = render(TestScene(cut, options, {"caustics"}));

@@ -8,7 +8,7 @@ namespace {
 
 TEST(LobeTruth, UnderAQuadLight) { EXPECT_TRUE(check_lobes_under_a_quad()); }
 TEST(LobeTruth, UnderADome) { EXPECT_TRUE(check_lobes_under_a_dome()); }
-TEST(LobeTruth, OfAThinSheet) { EXPECT_TRUE(check_lobes_of_a_thin_sheet()); }
+TEST(LobeTruth, OnBothSides) { EXPECT_TRUE(check_lobes_on_both_sides()); }
 TEST(LobeTruth, ThroughOneBounce) { EXPECT_TRUE(check_lobes_through_one_bounce()); }
 TEST(LobeTruth, DepthLimitsByLobe) { EXPECT_TRUE(check_depth_limits_by_lobe()); }
 TEST(LobeTruth, SingleLobes) { EXPECT_TRUE(check_single_lobes()); }

@@ -9,6 +9,8 @@
 // errors, exceeded by chance once in 1.5e5 comparisons. Seeds are fixed: a check that passed once passes always.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <span>
 #include <string>
 #include <vector>
@@ -27,9 +29,9 @@ struct Verdict {
     bool good = true;
     std::string why;  ///< the first and worst offence; empty if good
     explicit operator bool() const { return good; }
+    /// So that EXPECT_TRUE says why.
+    operator ::testing::AssertionResult() const { return good ? ::testing::AssertionSuccess() : ::testing::AssertionFailure() << why; }
 };
-/// For gtest's failure messages.
-inline std::ostream& operator<<(std::ostream& out, const Verdict& v) { return out << (v.good ? "good" : "bad: " + v.why); }
 
 /// The parts add up to the whole in every pixel and channel.
 [[nodiscard]] Verdict check_sum(const Picture& picture, const std::string& whole, const std::vector<std::string>& parts,
@@ -51,6 +53,8 @@ inline std::ostream& operator<<(std::ostream& out, const Verdict& v) { return ou
 /// The means of two layers of different renders agree statistically. Every pixel of a layer must estimate the same value
 /// or the pictures must show the same (pixels are then compared in pairs).
 [[nodiscard]] Verdict check_same_mean(const Picture& a, const std::string& layer_a, const Picture& b, const std::string& layer_b);
+/// Independent estimates whose mean should be `truth`.
+[[nodiscard]] Verdict check_mean_of(const std::vector<double>& values, double truth, const std::string& what, double relative_slack = 0);
 /// Every pixel is `truth` within a fraction of it.
 [[nodiscard]] Verdict check_constant(const Picture& picture, const std::string& layer, Color truth, double relative);
 

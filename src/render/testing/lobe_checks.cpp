@@ -23,7 +23,7 @@ class All {
 };
 
 /// Where the toy scenes are looked at from: the origin, on a plane that faces up.
-const Vec3f kEye{0.9F, 1.6F, 0.5F};
+const Vec3f kEye{0.45F, 0.8F, 0.25F};
 
 /// Every pixel sees the same point, so each is an independent estimate of one number.
 std::string point_camera() { return ortho_camera(kEye, {0, 0, 0}, 1e-3F); }
@@ -77,20 +77,29 @@ Verdict check_lobes_under_a_dome() {
     return compare(render(scene), truth, kReflecting, "_direct", kWhite);
 }
 
-Verdict check_lobes_of_a_thin_sheet() {
-    const std::string shader =
-        node("standard_surface", "sheet", " thin_walled on\n base_color 0.6 0.5 0.4\n subsurface 0.5\n subsurface_color 0.3 0.9 0.5\n transmission 0.4\n transmission_color 1 0.6 0.6\n specular_roughness 0.5");
+Verdict check_lobes_on_both_sides() {
+    // A thin sheet lets light through diffusely and straight, the surface of a body by rough refraction.
+    const std::string thin = " thin_walled on\n subsurface 0.5\n subsurface_color 0.3 0.9 0.5\n transmission 0.4", body = " transmission 0.7\n specular_IOR 1.3";
     // One light above, one below; they differ in colour so that a lobe on the wrong side shows.
     const Vec3f u{1.5F, 0, 0}, v{0, 0, 1.5F}, above{-1.5F, 1.2F, -1.2F}, below{-1.5F, -1.2F, -0.8F};
+    const Color color_above(1, 0.2F, 0.1F), color_below(0.1F, 0.3F, 1);
     const auto corners = [](Vec3f a, Vec3f b, Vec3f c, Vec3f d) { return " normalize off\n transmission 1\n vertices 4 1 VECTOR " + text_of(a) + "  " + text_of(b) + "  " + text_of(c) + "  " + text_of(d); };
-    const std::string lights = node("quad_light", "top", corners(above, above + u, above + u + v, above + v) + "\n color 1 0.2 0.1") + node("quad_light", "bottom", corners(below, below + v, below + u + v, below + u) + "\n color 0.1 0.3 1");
-    const std::vector<std::string> aovs{"diffuse", "specular", "transmission", "sss"};
-    const TestScene scene(frame_text(20, 20, 7, point_camera()) + shader + floor("plane", 0, 1, "sheet") + lights, in_memory(with_suffix(aovs, "_direct")));
-    const Picture picture = render(scene);
-    const LobeSums from_above = integrate_over_quad(scene.scene(), seen("plane"), above, u, v, 300), from_below = integrate_over_quad(scene.scene(), seen("plane"), below, u, v, 300);
+    const std::string lights = node("quad_light", "top", corners(above, above + u, above + u + v, above + v) + "\n color 1 0.2 0.1") +
+                               node("quad_light", "bottom", corners(below, below + v, below + u + v, below + u) + "\n color 0.1 0.3 1");
     All all;
-    for (const std::string& aov : aovs)
-        all << check_lit(picture, aov + "_direct") << check_mean(picture, aov + "_direct", from_above.at(aov) * Color(1, 0.2F, 0.1F) + from_below.at(aov) * Color(0.1F, 0.3F, 1), kGridError);
+    for (const bool is_thin : {true, false}) {
+        const std::string shader = node("standard_surface", "sheet", " base_color 0.6 0.5 0.4\n transmission_color 1 0.6 0.6\n specular_roughness 0.55\n" + (is_thin ? thin : body));
+        std::vector<std::string> aovs{"diffuse", "specular", "transmission"};
+        if (is_thin) aovs.emplace_back("sss");
+        const TestScene scene(frame_text(20, 20, 7, point_camera()) + shader + floor("plane", 0, 1, "sheet") + lights, in_memory(with_suffix(aovs, "_direct")));
+        const Picture picture = render(scene);
+        const LobeSums from_above = integrate_over_quad(scene.scene(), seen("plane"), above, u, v, 300), from_below = integrate_over_quad(scene.scene(), seen("plane"), below, u, v, 300);
+        // The lower light lies straight behind the sheet.
+        const LobeSums straight = mirror_weights(scene.scene(), seen("plane"));
+        for (const std::string& aov : aovs)
+            all << check_lit(picture, aov + "_direct")
+                << check_mean(picture, aov + "_direct", from_above.at(aov) * color_above + (from_below.at(aov) + straight.at(aov)) * color_below, kGridError);
+    }
     return all.verdict();
 }
 
@@ -201,7 +210,7 @@ Verdict check_path_log() {
 }
 
 std::vector<NamedCheck> lobe_checks() {
-    return {{"lobes under a quad", check_lobes_under_a_quad},       {"lobes under a dome", check_lobes_under_a_dome}, {"lobes of a thin sheet", check_lobes_of_a_thin_sheet},
+    return {{"lobes under a quad", check_lobes_under_a_quad},       {"lobes under a dome", check_lobes_under_a_dome}, {"lobes on both sides", check_lobes_on_both_sides},
             {"lobes through one bounce", check_lobes_through_one_bounce}, {"depth limits by lobe", check_depth_limits_by_lobe}, {"single lobes", check_single_lobes},
             {"direct light is direct", check_direct_light_is_direct},     {"additive sets", check_additive_sets},               {"path log", check_path_log}};
 }

@@ -16,8 +16,8 @@ namespace lightsieve::testing {
 [[nodiscard]] Verdict check_lobes_under_a_quad();
 /// The same under a dome that is brighter on one side.
 [[nodiscard]] Verdict check_lobes_under_a_dome();
-/// Lobes on both sides of a thin sheet between two lights.
-[[nodiscard]] Verdict check_lobes_of_a_thin_sheet();
+/// Lobes on both sides of a surface between two lights.
+[[nodiscard]] Verdict check_lobes_on_both_sides();
 /// One bounce: the light comes from a diffuse wall.
 [[nodiscard]] Verdict check_lobes_through_one_bounce();
 /// Diffuse and specular depth differ: one direction belongs to both lobes, but only one may go on.

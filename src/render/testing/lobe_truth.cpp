@@ -19,6 +19,8 @@ std::vector<std::string> aovs_of(const Event& event) {
     return {"specular"};
 }
 
+using Sums = std::map<std::string, std::array<double, 3>>;
+
 /// The lobes at the point, evaluated one by one.
 class Lobes {
   public:
@@ -33,24 +35,30 @@ class Lobes {
         at.tangent = frame.x;
         set_.begin(point.wo, frame);
         object->shaders[0]->closures(at, set_);
-        for (std::size_t i = 0; i < set_.closures().size(); ++i)
-            if (set_.delta(i)) throw std::runtime_error("a lobe of " + point.shape + " is too smooth for a grid");
     }
-    void add(Vec3f wi, Color weight, std::map<std::string, std::array<double, 3>>& sums) const {
-        for (std::size_t i = 0; i < set_.closures().size(); ++i) {
-            const Color f = set_.eval(i, wi).f * weight;
-            for (const std::string& aov : aovs_of(scene_.events[set_.closures()[i].record->event]))
-                for (int c = 0; c < 3; ++c)
-                    sums[aov][static_cast<std::size_t>(c)] += static_cast<double>(f[c]);
-        }
+    /// Adds every lobe's value for a direction.
+    void add(Vec3f wi, Color weight, Sums& sums) const {
+        for (std::size_t i = 0; i < set_.closures().size(); ++i)
+            add(i, set_.eval(i, wi).f * weight, sums);
+    }
+    /// Adds the weights of lobes with one direction.
+    void add_mirrors(Sums& sums) const {
+        for (std::size_t i = 0; i < set_.closures().size(); ++i)
+            if (set_.delta(i)) add(i, set_.albedo(i), sums);
     }
 
   private:
+    void add(std::size_t i, Color value, Sums& sums) const {
+        for (const std::string& aov : aovs_of(scene_.events[set_.closures()[i].record->event]))
+            for (int c = 0; c < 3; ++c)
+                sums[aov][static_cast<std::size_t>(c)] += static_cast<double>(value[c]);
+    }
+
     const Scene& scene_;
     ClosureSet set_;
 };
 
-LobeSums to_colors(const std::map<std::string, std::array<double, 3>>& sums) {
+LobeSums to_colors(const Sums& sums) {
     LobeSums out;
     for (const char* aov : {"diffuse", "specular", "coat", "sheen", "transmission", "sss"})
         out[aov] = kBlack;
@@ -63,7 +71,7 @@ LobeSums to_colors(const std::map<std::string, std::array<double, 3>>& sums) {
 
 LobeSums integrate_over_quad(const Scene& scene, const SeenPoint& point, Vec3f corner, Vec3f u, Vec3f v, int n) {
     const Lobes lobes(scene, point);
-    std::map<std::string, std::array<double, 3>> sums;
+    Sums sums;
     const Vec3f normal = cross(u, v);  // its length is the area
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
@@ -79,7 +87,7 @@ LobeSums integrate_over_quad(const Scene& scene, const SeenPoint& point, Vec3f c
 
 LobeSums integrate_over_sphere(const Scene& scene, const SeenPoint& point, const std::function<Color(Vec3f)>& radiance, int n) {
     const Lobes lobes(scene, point);
-    std::map<std::string, std::array<double, 3>> sums;
+    Sums sums;
     const Frame frame = Frame::from_z(point.normal);
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < 2 * n; ++j) {
@@ -88,6 +96,12 @@ LobeSums integrate_over_sphere(const Scene& scene, const SeenPoint& point, const
             const float solid_angle = std::sin(theta) * square(kPi / static_cast<float>(n));
             lobes.add(wi, radiance(wi) * solid_angle, sums);
         }
+    return to_colors(sums);
+}
+
+LobeSums mirror_weights(const Scene& scene, const SeenPoint& point) {
+    Sums sums;
+    Lobes(scene, point).add_mirrors(sums);
     return to_colors(sums);
 }
 

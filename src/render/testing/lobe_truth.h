@@ -35,4 +35,7 @@ struct SeenPoint {
 /// n  grid lines of latitude; twice as many of longitude, around the normal
 [[nodiscard]] LobeSums integrate_over_sphere(const Scene& scene, const SeenPoint& point, const std::function<Color(Vec3f)>& radiance, int n);
 
+/// What lobes of a single direction (mirrors, thin panes) carry; the integrals leave them out.
+[[nodiscard]] LobeSums mirror_weights(const Scene& scene, const SeenPoint& point);
+
 }  // namespace lightsieve::testing
