@@ -15,6 +15,7 @@ HEADER = """\
 #   blue ball          cloth                                  sheen
 #   copper ball        rough metal                            specular
 #   glass ball         refraction                             transmission, caustics off
+#   tinted pane        thin-walled glass, the sky behind it   transmission_direct
 #   paper lamp         thin-walled, lit from inside           sss (diffuse transmission), opacity
 #   filament           emissive shape inside the lamp         emission (O)
 #   neon tube          emissive shape behind the table        emission, indirect light
@@ -312,6 +313,16 @@ standard_surface
 
 standard_surface
 {
+ name pane_shader
+ thin_walled on
+ base 0
+ specular_roughness 0
+ transmission 1
+ transmission_color 0.35 0.75 0.8
+}
+
+standard_surface
+{
  name paper_shader
  thin_walled on
  base 1
@@ -365,6 +376,16 @@ sphere
  center 0.62 0.36 0.72
  radius 0.36
  shader "glass_shader"
+}
+
+polymesh
+{
+ name pane
+ shader "pane_shader"
+ nsides 1 1 UINT 4
+ vidxs 4 1 UINT 0 1 2 3
+ vlist 4 1 VECTOR
+  -2.15 0.02 -0.75  -1.15 0.02 -1.05  -1.15 2.0 -1.05  -2.15 2.0 -0.75
 }
 
 sphere

@@ -89,6 +89,7 @@ class Planner {
         : input_(input), plan_(plan), diagnostics_(diagnostics), table_(choose_table()) {}
 
     void run() {
+        plan_.table = table_.table();
         plan_.light_groups.assign(input_.light_groups.begin(), input_.light_groups.end());
         define_expressions();
         gather_outputs();
@@ -349,7 +350,7 @@ class Planner {
 /// Looks among the layers of one file for sets that add up, and proves them.
 class PartitionFinder {
   public:
-    PartitionFinder(const AovPlan& plan, std::size_t driver) : plan_(plan) {
+    PartitionFinder(const AovPlan& plan, std::size_t driver, std::span<const Event> events) : plan_(plan), events_(events) {
         for (const std::uint32_t index : plan.drivers[driver].layers) {
             const PlannedLayer& layer = plan.layers[index];
             if (layer.expr != nullptr && layer.info.n_channels >= 3) layers_.push_back(&layer);
@@ -386,15 +387,30 @@ class PartitionFinder {
         std::string sum;
         for (const std::string_view aov : aovs) {
             const PlannedLayer* layer = layer_of(whole, aov);
-            if (layer == nullptr || layer == &whole) return;
+            if (layer == &whole) return;
+            if (layer == nullptr) {
+                const lpe::Expr missing = dead_builtin(aov);
+                if (missing == nullptr) return;
+                parts.push_back(missing);
+                continue;
+            }
             parts.push_back(layer->expr);
             sum += (sum.empty() ? "" : " + ") + layer->info.name;
         }
+        if (sum.empty()) return;
         try {
             if (lpe::check_partition(whole.expr, parts).holds()) remember(whole, sum);
         } catch (const InputError&) {
             // Over the budget of a proof: nothing is claimed.
         }
+    }
+
+    /// The built-in of that name if it takes no path of this scene; null otherwise.
+    lpe::Expr dead_builtin(std::string_view aov) const {
+        const lpe::ExpressionTable table(plan_.table);
+        const lpe::NamedExpr* named = table.find(aov);
+        if (named == nullptr || lpe::shortest_path(named->expr, events_)) return nullptr;
+        return named->expr;
     }
 
     /// The groups of an expression partition its light by construction, if all of them and the default one are there.
@@ -418,6 +434,7 @@ class PartitionFinder {
     }
 
     const AovPlan& plan_;
+    std::span<const Event> events_;
     std::vector<const PlannedLayer*> layers_;
     std::vector<std::string> found_;
 };
@@ -467,8 +484,8 @@ std::optional<OutputString> parse_output(std::string_view text, const SourceSpan
     return out;
 }
 
-std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver) {
-    return PartitionFinder(plan, driver).find();
+std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver, std::span<const Event> events) {
+    return PartitionFinder(plan, driver, events).find();
 }
 
 void plan_layers(const PlanInput& input, AovPlan& plan, Diagnostics& diagnostics) { Planner(input, plan, diagnostics).run(); }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lpe/builtins.h"
 #include "lpe/light_groups.h"
 #include "lpe/program.h"
 #include "render/render.h"
@@ -82,6 +83,7 @@ struct AovPlan {
     std::optional<lpe::Program> program;
     bool wants_probes = false;            ///< some expression can take an albedo probe
     bool wants_beauty = false;
+    lpe::BuiltinTable table = lpe::BuiltinTable::Reference;  ///< which built-ins the scene uses
     std::vector<std::string> light_groups;  ///< named groups of the scene's lights
 };
 
@@ -108,6 +110,8 @@ struct PlanInput {
 void plan_layers(const PlanInput& input, AovPlan& plan, Diagnostics& diagnostics);
 
 /// `RGBA = direct + indirect + ...` for every partition among the layers of driver `driver` that the engine proves.
-[[nodiscard]] std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver);
+///
+/// events  of the scene: a built-in that takes none of its paths (volume, without volumes) may be missing from a sum
+[[nodiscard]] std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver, std::span<const Event> events);
 
 }  // namespace lightsieve

@@ -201,7 +201,7 @@ void Compiler::summarize_scene() {
             s.layers.push_back(plan.layers[layer].info);
             s.layer_file.push_back(static_cast<int>(d));
         }
-        for (std::string& proved : proved_partitions(plan, d))
+        for (std::string& proved : proved_partitions(plan, d, scene_->events))
             if (std::find(s.partitions.begin(), s.partitions.end(), proved) == s.partitions.end()) s.partitions.push_back(std::move(proved));
     }
 }

@@ -91,7 +91,7 @@ ImageHeader Renderer::header_of(const PlannedDriver& driver, std::size_t index) 
     h.metadata["arnold/GI_transmission_depth"] = int{s.depth.transmission};
     h.metadata["arnold/GI_total_depth"] = int{s.depth.total};
     std::string partitions;
-    for (const std::string& proved : proved_partitions(scene_.plan, index))
+    for (const std::string& proved : proved_partitions(scene_.plan, index, scene_.events))
         partitions += (partitions.empty() ? "" : "\n") + proved;
     if (!partitions.empty()) h.metadata["lightsieve/partitions"] = partitions;
     return h;
