@@ -35,7 +35,7 @@ def info(path: Path) -> ExrInfo:
 
     Example:
         >>> [layer.name for layer in info("out/frame.exr").layers]
-        ['RGBA', 'diffuse', 'rest']
+        ['RGBA', 'diffuse', 'diffuse_direct', 'diffuse_indirect', 'mirrored']
     """
     return _core.exr_info(os.fspath(path))
 
@@ -90,7 +90,7 @@ def verify(path: Path) -> ExrVerifyResult:
 
     Example:
         >>> [check.text for check in verify("out/frame.exr").checks]
-        ['RGBA = diffuse + rest']
+        ['diffuse = diffuse_direct + diffuse_indirect']
     """
     return _core.exr_verify(os.fspath(path))
 

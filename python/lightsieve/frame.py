@@ -82,7 +82,7 @@ class Frame:
 
         Example:
             >>> frame.layers()
-            ['RGBA', 'diffuse', 'rest']
+            ['RGBA', 'diffuse', 'diffuse_direct', 'diffuse_indirect', 'mirrored']
         """
         return list(self._infos)
 

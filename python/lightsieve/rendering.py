@@ -163,9 +163,9 @@ def render(
         KeyboardInterrupt: Ctrl-C; what was done is in the files.
 
     Example:
-        >>> frame = render("scene.ass", aovs=["diffuse"], lpes={"rest": "C[^<RD>].*"})
+        >>> frame = render("scene.ass", aovs=["diffuse"], lpes={"mirrored": "CS[LOB]"})
         >>> frame.layers()
-        ['RGBA', 'diffuse', 'rest']
+        ['RGBA', 'diffuse', 'mirrored']
     """
     compiled = compile_scene(
         scene, capture=True, write_files=write or "output" in settings, **settings

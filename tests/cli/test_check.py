@@ -25,20 +25,19 @@ def test_summary_of_a_good_scene(run: Run, tmp_path: Path) -> None:
 
 def test_proved_partitions_are_named(run: Run, tmp_path: Path) -> None:
     scene = tmp_path / "sums.ass"
-    outputs = ["RGBA RGBA", "diffuse RGB", "rest RGB"]
+    outputs = ["RGBA RGBA", "diffuse RGB", "diffuse_direct RGB", "diffuse_indirect RGB"]
     strings = " ".join(f'"{output} filter driver"' for output in outputs)
     scene.write_text(
         STILL.read_text().replace(
             'camera "cam" }',
-            f'camera "cam" outputs 3 1 STRING {strings}\n'
-            'light_path_expressions "rest C[^<RD>].*" }\n'
+            f'camera "cam" outputs 4 1 STRING {strings} }}\n'
             'driver_exr { name driver filename "sums.exr" }\n'
             "gaussian_filter { name filter }",
         )
     )
     done = run("check", scene, "--json")
     assert done.code == 0, done.out
-    assert done.json["summary"]["partitions"] == ["RGBA = diffuse + rest"]
+    assert done.json["summary"]["partitions"] == ["diffuse = diffuse_direct + diffuse_indirect"]
 
 
 def test_json_keys_are_the_documented_ones(run: Run) -> None:

@@ -42,7 +42,7 @@ def test_match_says_yes_or_no_and_exits_accordingly(
     run: Run, expression: str, path: str, taken: bool
 ) -> None:
     done = run("lpe", "match", expression, path)
-    assert done.out == f"{'yes' if taken else 'no '}  {path}\n"
+    assert done.out == f"{'yes' if taken else 'no'}  {path}\n"
     assert done.code == (0 if taken else 1)
 
 
@@ -84,7 +84,7 @@ def test_all_mistakes_of_an_expression_are_reported(run: Run) -> None:
 
 
 def test_bad_path_is_quoted_with_a_caret(run: Run) -> None:
-    done = run("lpe", "match", "C.*", "C RD X")
+    done = run("lpe", "match", "C.*", "C D L")
     assert done.code == 1
     assert "error[lpe-path]" in done.err
-    assert "| C RD X\n      |      ^" in done.err
+    assert "| C D L\n      |   ^" in done.err

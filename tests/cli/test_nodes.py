@@ -24,7 +24,7 @@ def test_a_node_in_full(run: Run) -> None:
     assert done.code == 0
     assert done.out.startswith("standard_surface (shader, gives CLOSURE): ")
     rows = {line.split()[0]: line for line in done.out.splitlines() if line.startswith("  ")}
-    assert rows["base"].split()[1:3] == ["FLOAT", "0.8"]
+    assert rows["base"].split()[1:3] == ["FLOAT", "1"]
     assert rows["base_color"].split()[1:5] == ["RGB", "0.8", "0.8", "0.8"]
     assert "RS'coat'" in rows
     assert "RS'sheen'" in rows

@@ -56,16 +56,31 @@ def test_output_may_be_a_file_or_a_folder(run: Run, still: Path, tmp_path: Path)
 
 
 def test_aovs_and_expressions_of_the_command_line_become_layers(run: Run, still: Path) -> None:
-    aovs = ("--aov", "diffuse_* RGB", "--aov", "Z FLOAT", "--lpe", "rest C[^<RD>].*")
+    aovs = ["--aov", "diffuse RGB", "--aov", "diffuse_* RGB", "--aov", "Z FLOAT"]
+    aovs += ["--lpe", "mirrored CS[LOB]"]
     done = run("render", still.name, *FAST, *aovs)
     assert done.code == 0, done.err
-    expected = ["RGBA", "Z", "diffuse_default", "diffuse_key", "rest"]
+    expected = ["RGBA", "Z", "diffuse", "diffuse_default", "diffuse_key", "mirrored"]
     assert sorted(layers_of(run, "still.exr")) == expected
     assert run("exr", "verify", "still.exr").code == 0
 
 
 def test_kick_spellings(run: Run, still: Path) -> None:
-    as_kick = "-i still.ass -o kick.exr -r 8 6 -as 2 -t 1 -v 0".split()
+    as_kick = [
+        "-i",
+        "still.ass",
+        "-o",
+        "kick.exr",
+        "-r",
+        "8",
+        "6",
+        "-as",
+        "2",
+        "-t",
+        "1",
+        "-v",
+        "0",
+    ]
     document = run("render", *as_kick, "--json").json
     assert document["files"] == ["kick.exr"]
     assert (document["width"], document["height"], document["samples"]) == (8, 6, 8 * 6 * 4)

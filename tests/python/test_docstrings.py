@@ -29,8 +29,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     lightsieve.render(
         where / "scene.ass",
         spp=1,
-        aovs=["diffuse"],
-        lpes={"rest": "C[^<RD>].*"},
+        aovs=["diffuse", "diffuse_direct", "diffuse_indirect"],
+        lpes={"mirrored": "CS[LOB]"},
         output=where / "out/frame.exr",
     )
     return where

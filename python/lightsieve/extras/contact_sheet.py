@@ -32,7 +32,7 @@ REC709_FROM_ACESCG = np.array(
 # The Y row of ACEScg.
 LUMINANCE = np.array([0.27223, 0.67408, 0.05369], dtype=np.float32)
 
-# The brightest hundredth of a layer is brought to about this value: bright, seldom clipped.
+# The brightest hundredth of a dark layer is brought to about this value: bright, seldom clipped.
 TARGET_LUMINANCE = 0.8
 MAX_STOPS = 10
 
@@ -67,17 +67,19 @@ def srgb_from_acescg(linear: Picture) -> Picture:
         >>> srgb_from_acescg(np.ones((1, 1, 3), np.float32)).round(3).tolist()
         [[[1.0, 1.0, 1.0]]]
     """
-    rec709 = np.clip(linear @ REC709_FROM_ACESCG.T, 0, 1)
+    rec709: Picture = np.clip(linear @ REC709_FROM_ACESCG.T, 0, 1)
     low = rec709 * 12.92
     high = 1.055 * np.power(np.maximum(rec709, 1e-8), 1 / 2.4) - 0.055
-    return np.clip(np.where(rec709 <= 0.0031308, low, high), 0, 1).astype(np.float32)
+    display: Picture = np.where(rec709 <= 0.0031308, low, high).astype(np.float32)
+    return np.clip(display, 0, 1)
 
 
 def _resize(pixels: Picture, width: int) -> Picture:
-    """Averages pixels down to a width; small pictures stay as they are."""
+    """Averages pixels down to a width; small pictures grow by a whole factor, pixel by pixel."""
     height, old_width, channels = pixels.shape
     if old_width <= width:
-        return pixels
+        factor = max(1, width // old_width)
+        return pixels.repeat(factor, axis=0).repeat(factor, axis=1)
     size = (width, max(1, round(height * width / old_width)))
     parts = [
         np.asarray(Image.fromarray(pixels[:, :, c]).resize(size, Image.Resampling.BOX))
@@ -91,14 +93,14 @@ def _image(display: Picture) -> Image.Image:
 
 
 def _light_stops(pixels: Picture) -> int | None:
-    """The exposure for a layer of light in whole stops, or None if it is black."""
+    """How far a layer of light is brightened, in whole stops; None if it is black."""
     luminance = pixels @ LUMINANCE
     lit = luminance[luminance > 0]
     if lit.size == 0:
         return None
     bright = float(np.percentile(lit, 99))
     stops = math.floor(math.log2(TARGET_LUMINANCE / bright)) if bright > 0 else MAX_STOPS
-    return max(-MAX_STOPS, min(MAX_STOPS, stops))
+    return max(0, min(MAX_STOPS, stops))
 
 
 def _show_light(pixels: Picture, width: int, is_beauty: bool) -> tuple[str, Image.Image]:
@@ -106,7 +108,7 @@ def _show_light(pixels: Picture, width: int, is_beauty: bool) -> tuple[str, Imag
     small = _resize(pixels, width)
     if stops is None:
         return "black", _image(np.zeros_like(small))
-    note = f"{stops:+d} stop{'' if abs(stops) == 1 else 's'}" if stops else ""
+    note = f"+{stops} stop{'' if stops == 1 else 's'}" if stops else ""
     return note, _image(srgb_from_acescg(small * np.float32(2.0**stops)))
 
 
@@ -124,7 +126,8 @@ def _show_data(pixels: Picture, width: int) -> tuple[str, Image.Image]:
 
 def _show_ids(pixels: npt.NDArray[np.uint32], width: int) -> tuple[str, Image.Image]:
     step = max(1, -(-pixels.shape[1] // width))
-    ids = pixels[::step, ::step, 0].astype(np.uint64)
+    factor = max(1, width // pixels.shape[1])
+    ids = pixels[::step, ::step, 0].repeat(factor, axis=0).repeat(factor, axis=1).astype(np.uint64)
     # Fibonacci hashing: neighbours in number get colours far apart.
     mixed = (ids * np.uint64(0x9E3779B97F4A7C15)) >> np.uint64(40)
     colours = np.stack([(mixed >> np.uint64(8 * c)) & np.uint64(255) for c in range(3)], axis=-1)
