@@ -318,7 +318,7 @@ standard_surface
  base 0
  specular_roughness 0
  transmission 1
- transmission_color 0.35 0.75 0.8
+ transmission_color 0.5 0.85 0.9
 }
 
 standard_surface
@@ -385,7 +385,7 @@ polymesh
  nsides 1 1 UINT 4
  vidxs 4 1 UINT 0 1 2 3
  vlist 4 1 VECTOR
-  -2.15 0.02 -0.75  -1.15 0.02 -1.05  -1.15 2.0 -1.05  -2.15 2.0 -0.75
+  -2.1 0.02 -0.8  -1.3 0.02 -1.05  -1.3 1.55 -1.05  -2.1 1.55 -0.8
 }
 
 sphere
