@@ -9,6 +9,7 @@
 
 #include "lpe/alphabet.h"
 #include "lpe/interner.h"
+#include "lpe/predicate.h"
 #include "lpe/term.h"
 
 namespace lightsieve::lpe {
@@ -19,40 +20,62 @@ constexpr std::string_view kDefaultGroup = "default";
 constexpr std::array<std::string_view, 4> kNeverObjectLabels{"coat", "sheen", "hair",
                                                              kDefaultGroup};
 
+/// Light groups that a proof tells apart for each label of lobes.
+constexpr std::size_t kGroupsPerLabel = 10;
+
 bool may_be_object_label(const std::string& label) {
     return std::ranges::find(kNeverObjectLabels, label) == kNeverObjectLabels.end();
 }
 
-/// For each label, the tests that name it: labels named by the same tests are alike.
-std::map<std::string, std::vector<std::size_t>> label_uses(std::span<const Expr> exprs) {
-    std::map<std::string, std::vector<std::size_t>> uses;
+/// For each label, the tests that name it. Labels that the same tests name are alike.
+using LabelUses = std::map<std::string, std::vector<std::size_t>>;
+
+/// The labels in tests that scattering and emission can pass, and those in tests that lights can
+/// pass.
+struct AllLabelUses {
+    LabelUses lobes, groups;
     std::size_t n_tests = 0;
-    const auto add = [&](const std::vector<std::string>& labels) {
-        for (const std::string& label : std::set<std::string>(labels.begin(), labels.end()))
-            uses[label].push_back(n_tests);
+
+    explicit AllLabelUses(std::span<const Expr> exprs) {
+        for (const Expr& expr : exprs)
+            if (expr) for_each_node(*expr, [&](const Node& node) { collect(node); });
+    }
+
+  private:
+    void collect(const Node& node) {
+        if (const auto* label = std::get_if<Label>(&node.form)) add({label->label}, true, true);
+        const auto* angle = std::get_if<Angle>(&node.form);
+        if (angle == nullptr) return;
+        const auto may_be = [&](EventKind kind) { return may_be_kind(angle->kind, kind); };
+        const bool lobe = may_be(EventKind::Reflection) || may_be(EventKind::Transmission) ||
+                          may_be(EventKind::Volume) || may_be(EventKind::Object);
+        const bool light = may_be(EventKind::Light) || may_be(EventKind::Background);
+        for (const LabelTest& test : angle->labels)
+            add(test.labels, lobe, light);
+    }
+    void add(const std::vector<std::string>& labels, bool lobe, bool light) {
+        for (const std::string& label : std::set<std::string>(labels.begin(), labels.end())) {
+            if (lobe) lobes[label].push_back(n_tests);
+            if (light) groups[label].push_back(n_tests);
+        }
         ++n_tests;
-    };
-    const auto collect = [&](const Node& node) {
-        if (const auto* label = std::get_if<Label>(&node.form)) add({label->label});
-        if (const auto* angle = std::get_if<Angle>(&node.form))
-            for (const LabelTest& test : angle->labels)
-                add(test.labels);
-    };
-    for (const Expr& expr : exprs)
-        if (expr) for_each_node(*expr, collect);
-    return uses;
-}
+    }
+};
 
 /// One label for each set of labels that are alike, one that may be an object label where there is
 /// one.
-std::vector<std::string> distinct_labels(
-    const std::map<std::string, std::vector<std::size_t>>& uses) {
+std::vector<std::string> distinct_labels(const LabelUses& uses, std::size_t limit) {
     std::map<std::vector<std::size_t>, std::string> by_use;
     for (const auto& [label, use] : uses) {
         const auto [entry, is_new] = by_use.emplace(use, label);
         if (!is_new && !may_be_object_label(entry->second) && may_be_object_label(label))
             entry->second = label;
     }
+    if (by_use.size() > limit)
+        throw InputError(OverBudget{
+            Code::LimitLpeLabels,
+            "would have to tell " + std::to_string(by_use.size()) + " labels apart", "max_labels"}
+                             .error("the proof", {}));
     std::vector<std::string> labels;
     for (const auto& [use, label] : by_use)
         labels.push_back(label);
@@ -73,7 +96,7 @@ std::vector<std::vector<std::string>> label_sets(const std::vector<std::string>&
 }
 
 /// A light group that no expression names: `default` unless one does.
-std::string unnamed_group(const std::map<std::string, std::vector<std::size_t>>& uses) {
+std::string unnamed_group(const LabelUses& uses) {
     std::string group(kDefaultGroup);
     for (int i = 1; uses.contains(group); ++i)
         group = "group" + std::to_string(i);
@@ -172,31 +195,30 @@ std::optional<Path> search(std::initializer_list<Expr> exprs, const Wanted& want
 }  // namespace
 
 std::vector<Event> abstract_events(std::span<const Expr> exprs, const Limits& limits) {
-    const std::map<std::string, std::vector<std::size_t>> uses = label_uses(exprs);
-    const std::vector<std::string> labels = distinct_labels(uses);
-    if (labels.size() > limits.max_labels)
-        throw InputError(OverBudget{
-            Code::LimitLpeLabels,
-            "would have to tell " + std::to_string(labels.size()) + " labels apart", "max_labels"}
-                             .error("the proof", {}));
+    const AllLabelUses uses(exprs);
+    const std::vector<std::vector<std::string>> lobes =
+        label_sets(distinct_labels(uses.lobes, limits.max_labels));
+    // A light is in one group: no pairs, so there may be many more of them.
+    const std::vector<std::string> groups =
+        distinct_labels(uses.groups, kGroupsPerLabel * limits.max_labels);
     std::vector<Event> events;
-    const std::vector<std::vector<std::string>> sets = label_sets(labels);
-    const auto add_all = [&](EventKind kind, EventLobe lobe) {
-        for (const std::vector<std::string>& set : sets)
-            events.push_back({kind, lobe, set});
+    const auto add_lobes = [&](EventKind kind, EventLobe lobe) {
+        for (const std::vector<std::string>& labels : lobes)
+            events.push_back({kind, lobe, labels});
     };
-    add_all(EventKind::Reflection, EventLobe::Diffuse);
-    add_all(EventKind::Reflection, EventLobe::Specular);
-    add_all(EventKind::Transmission, EventLobe::Diffuse);
-    add_all(EventKind::Transmission, EventLobe::Specular);
-    add_all(EventKind::Volume, EventLobe::None);
-    events.push_back({EventKind::Light, EventLobe::None, {unnamed_group(uses)}});
-    for (const std::string& label : labels)
-        events.push_back({EventKind::Light, EventLobe::None, {label}});
-    add_all(EventKind::Object, EventLobe::None);
-    events.push_back({EventKind::Background, EventLobe::None, {}});
-    for (const std::string& label : labels)
-        events.push_back({EventKind::Background, EventLobe::None, {label}});
+    const auto add_lights = [&](EventKind kind, const std::vector<std::string>& unnamed) {
+        events.push_back({kind, EventLobe::None, unnamed});
+        for (const std::string& group : groups)
+            events.push_back({kind, EventLobe::None, {group}});
+    };
+    add_lobes(EventKind::Reflection, EventLobe::Diffuse);
+    add_lobes(EventKind::Reflection, EventLobe::Specular);
+    add_lobes(EventKind::Transmission, EventLobe::Diffuse);
+    add_lobes(EventKind::Transmission, EventLobe::Specular);
+    add_lobes(EventKind::Volume, EventLobe::None);
+    add_lights(EventKind::Light, {unnamed_group(uses.groups)});
+    add_lobes(EventKind::Object, EventLobe::None);
+    add_lights(EventKind::Background, {});
     events.push_back({EventKind::Albedo, EventLobe::None, {}});
     return events;
 }

@@ -243,6 +243,18 @@ TEST(Algebra, LabelsThatAreAlikeAreOne) {
     EXPECT_LT(abstract_events(parse_all({text + "]>L"})).size(), 40U);
 }
 
+TEST(Algebra, ManyLightGroupsAreFew) {
+    std::vector<Expr> parts{must_parse("C.*O"), must_parse("C.*<[LB].'g0'>")};
+    std::string others = "'g0'";
+    for (int i = 1; i < 200; ++i) {
+        parts.push_back(must_parse("C.*<[LB].'g" + std::to_string(i) + "'>"));
+        others += "'g" + std::to_string(i) + "'";
+    }
+    EXPECT_EQ(verdict(check_partition(must_parse("C.*"), parts)), "lost C L");
+    parts.push_back(must_parse("C.*<[LB].[^" + others + "]>"));
+    EXPECT_EQ(verdict(check_partition(must_parse("C.*"), parts)), "");
+}
+
 TEST(Algebra, TooManyLabelsIsALimit) {
     std::string text = "C";
     for (int i = 0; i < 300; ++i)
@@ -260,8 +272,9 @@ TEST(Algebra, AProofThatExplodesIsALimit) {
         (void)equivalent(must_parse("C.*D.{20}L"), must_parse("C.*D.{20}LL?"));
         FAIL();
     } catch (const InputError& error) {
-        EXPECT_EQ(error.errors()[0].code, Code::LimitLpeStates);
-        EXPECT_EQ(error.errors()[0].message, "the proof needs more than 100000 states");
+        EXPECT_EQ(error.errors()[0].code, Code::LimitLpeSteps);
+        EXPECT_EQ(error.errors()[0].message, "the proof needs more than 5000000 derivative steps");
+        EXPECT_EQ(error.errors()[0].hint, "the limit is max_steps");
     }
 }
 

@@ -20,7 +20,8 @@ struct Limits {
     std::size_t max_nodes = 1'000'000;          ///< nodes of derived expressions
     std::size_t max_table_bytes = 256U << 20U;  ///< transitions and atoms of one automaton [bytes]
     std::size_t max_automata = 64;              ///< automata stepped together
-    std::size_t max_labels = 256;  ///< labels that one proof over all paths tells apart
+    std::size_t max_labels = 100;  ///< labels of lobes that one proof over all paths tells apart,
+                                   ///< and ten times as many light groups
 };
 
 /// Thrown within the engine when a budget is exceeded; turned into an `Error` where the

@@ -151,13 +151,10 @@ class SceneLint {
         if (const auto* label = std::get_if<Label>(&node.form)) check_bare(*label, node.where);
         const auto* angle = std::get_if<Angle>(&node.form);
         if (angle == nullptr) return;
-        const Node kinds{Angle{angle->kind, {}, {}}, {}};
-        const bool light =
-            takes_kind(kinds, EventKind::Light) || takes_kind(kinds, EventKind::Background);
-        const bool lobe = takes_kind(kinds, EventKind::Reflection) ||
-                          takes_kind(kinds, EventKind::Transmission) ||
-                          takes_kind(kinds, EventKind::Volume) ||
-                          takes_kind(kinds, EventKind::Object);
+        const auto may_be = [&](EventKind kind) { return may_be_kind(angle->kind, kind); };
+        const bool light = may_be(EventKind::Light) || may_be(EventKind::Background);
+        const bool lobe = may_be(EventKind::Reflection) || may_be(EventKind::Transmission) ||
+                          may_be(EventKind::Volume) || may_be(EventKind::Object);
         for (const LabelTest& test : angle->labels)
             for (const std::string& label : test.labels)
                 check_label(label, light, lobe, test.form == LabelTest::Form::NoneOf, test.where);

@@ -108,6 +108,10 @@ struct Takes {
 
 }  // namespace
 
+bool may_be_kind(const LetterTest& test, EventKind kind) {
+    return kind_holds(test, {kind, EventLobe::None, {}});
+}
+
 bool carries(const Event& event, const std::string& label) {
     return std::find(event.labels.begin(), event.labels.end(), label) != event.labels.end();
 }

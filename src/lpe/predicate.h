@@ -14,6 +14,9 @@ namespace lightsieve::lpe {
 /// Does the test take the event? `test` must satisfy `is_event_test`.
 [[nodiscard]] bool takes(const Node& test, const Event& event);
 
+/// Can an event of that kind pass the kind test of `<..>`, whatever its lobe and labels?
+[[nodiscard]] bool may_be_kind(const LetterTest& test, EventKind kind);
+
 /// Does the event carry the label?
 [[nodiscard]] bool carries(const Event& event, const std::string& label);
 

@@ -9,6 +9,8 @@
 #include "lpe/builtins.h"
 #include "lpe/dump.h"
 #include "lpe/light_groups.h"
+#include "lpe/lint.h"
+#include "lpe/parse.h"
 #include "lpe/path.h"
 #include "lpe/print.h"
 #include "lpe/testing/generate.h"
@@ -313,6 +315,32 @@ TEST(Budget, ExplosionsAreClearErrors) {
     EXPECT_TRUE(nested.find("limit-lpe-") != std::string::npos) << nested;
     EXPECT_TRUE(nested.find("\"(((D?){16}){16}){16}\" is what explodes") != std::string::npos)
         << nested;
+}
+
+TEST(Budget, HostileTextsEndSoon) {
+    const auto repeated = [](const std::string& text, int n) {
+        std::string out;
+        for (int i = 0; i < n; ++i)
+            out += text;
+        return out;
+    };
+    const std::vector<Event> events = must_events("RD RS V L O A");
+    for (const std::string& text : {"C" + repeated("D?", 30'000) + "L",
+                                    "C" + repeated("(", 250) + "D" + repeated("){256}", 250) + "L",
+                                    "C" + repeated(".*D", 20'000) + "L"}) {
+        Diagnostics diagnostics;
+        const Expr expr = parse(text, diagnostics);
+        lint_expression(text, {}, "x", expr, diagnostics);
+        lint_in_scene(expr, "x", events, diagnostics);
+        EXPECT_TRUE(diagnostics.items().empty()) << diagnostics.render();
+        const std::vector<AovRequest> aovs{{"x", expr}};
+        (void)Program::compile(aovs, events, {}, diagnostics);
+        ASSERT_EQ(diagnostics.items().size(), 1U);
+        EXPECT_TRUE(code_text(diagnostics.items()[0].code).starts_with("limit-lpe-"));
+    }
+    // Long alone is no reason to refuse.
+    EXPECT_EQ(compile_errors(requests({"C" + repeated(".", 60'000) + "L"}), events), "");
+    EXPECT_EQ(compile_errors(requests({"C(" + repeated("DS|", 20'000) + "S)L"}), events), "");
 }
 
 TEST(Budget, EachIsNamed) {

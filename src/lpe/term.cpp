@@ -71,6 +71,7 @@ TermId TermPool::make_sequence(TermId head, TermId tail) {
 /// Flattened, single events united to one set, sorted, without duplicates and without what `.*`
 /// takes anyway. Uses `parts` as scratch space.
 TermId TermPool::make_alternation(std::vector<TermId>& parts) {
+    count_steps(parts.size());
     std::vector<std::uint32_t> classes(alphabet_.n_words(), 0);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const TermId part = parts[i];
@@ -89,7 +90,6 @@ TermId TermPool::make_alternation(std::vector<TermId>& parts) {
     std::ranges::sort(parts);
     parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
     std::erase(parts, kNothing);
-    count_steps(parts.size());
     const auto universal =
         std::ranges::find_if(parts, [&](TermId part) { return is_universal(part); });
     if (universal != parts.end())
