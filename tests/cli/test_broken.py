@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from tests.conftest import ROOT
 
 SCENES = sorted((ROOT / "tests/broken").glob("*.ass"))

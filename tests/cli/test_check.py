@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.conftest import ROOT, Run
-
 from lightsieve.cli import check
+from tests.conftest import ROOT, Run
 
 STILL = ROOT / "tests/scenes/still.ass"
 

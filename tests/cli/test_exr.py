@@ -8,9 +8,9 @@ import numpy as np
 import OpenEXR
 import pytest
 from PIL import Image
-from tests.conftest import ROOT, Run
 
 from lightsieve.cli import exr_diff, exr_info, exr_sheet, exr_verify
+from tests.conftest import ROOT, Run
 
 STILL = ROOT / "tests/scenes/still.ass"
 AOVS = [

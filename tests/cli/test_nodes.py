@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from tests.conftest import ROOT, Run
-
 from lightsieve.scene import nodes
+from tests.conftest import ROOT, Run
 
 
 def test_every_file_of_a_node_is_a_node(run: Run) -> None:

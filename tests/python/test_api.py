@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.conftest import ROOT
 
 import lightsieve
+from tests.conftest import ROOT
 
 STILL = ROOT / "tests/scenes/still.ass"
 

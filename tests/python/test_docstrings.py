@@ -9,9 +9,9 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
-from tests.conftest import ROOT
 
 import lightsieve
+from tests.conftest import ROOT
 
 MODULES = sorted(
     found.name

@@ -31,7 +31,10 @@ LIBRARIES = {
     "zlib": (r"zlib\.h", r"scene/(ass_\w+|\w+_test)\.cpp"),
     "fmt": (r"fmt/", r"(io|scene|nodes|render)/.*"),
     "nanobind": (r"nanobind/", r"python/.*"),
-    "GoogleTest": (r"gtest/|gmock/", r".*_test\.cpp|.*/test_\w+\.h|.*_test_support\.h"),
+    "GoogleTest": (
+        r"gtest/|gmock/",
+        r".*_test\.cpp|.*/test_\w+\.h|.*_test_support\.h|.*/testing/.*",
+    ),
 }
 
 # Headers of the system and of the compiler that any file may use.
@@ -53,7 +56,7 @@ def includes(path: Path) -> Iterator[tuple[int, str, bool]]:
 def complaints_of(file: str, header: str, quoted: bool) -> str | None:
     """What is wrong with `#include header` in src/file, if anything."""
     layer = file.split("/")[0]
-    is_test = file.endswith("_test.cpp")
+    is_test = file.endswith("_test.cpp") or "/testing/" in file
     if quoted:
         target = header.split("/")[0]
         if "/" not in header:

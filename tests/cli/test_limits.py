@@ -1,0 +1,60 @@
+"""Scenes that are too much of something: an error that names the limit, no crash, no hang."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+import lightsieve
+from tests.conftest import ROOT
+
+STILL = (ROOT / "tests/scenes/still.ass").read_text()
+
+
+def codes(scene: Path, **settings: object) -> list[str]:
+    report = lightsieve.check(scene, **settings)  # type: ignore[arg-type]
+    return [item.code for item in report.diagnostics]
+
+
+def test_a_chain_of_shaders_that_is_too_long(tmp_path: Path) -> None:
+    links = "\n".join(f"checkerboard {{ name link{i} color1 link{i + 1} }}" for i in range(1000))
+    scene = tmp_path / "chain.ass"
+    scene.write_text(
+        f"{STILL}\n{links}\ncheckerboard {{ name link1000 }}\n"
+        "lambert { name chained Kd_color link0 }\nsphere { name other shader chained }\n"
+    )
+    assert codes(scene) == ["limit-shader-depth"]
+
+
+def test_light_that_is_no_number_is_dropped_and_counted(tmp_path: Path) -> None:
+    scene = tmp_path / "bright.ass"
+    scene.write_text(STILL.replace("coat 1 }", "emission 3e38 emission_color 3e38 1 1 }"))
+    frame = lightsieve.render(scene, spp=1)
+    warnings = [item for item in frame.diagnostics if item.code == "render-non-finite"]
+    assert len(warnings) == 1
+    assert np.isfinite(frame.layer("RGBA")).all()
+
+
+def test_a_picture_that_is_too_large(tmp_path: Path) -> None:
+    assert "limit-image-size" in codes(
+        ROOT / "tests/scenes/still.ass", size=(2_000_000, 2_000_000)
+    )
+
+
+def test_deep_nesting_in_a_scene_file(tmp_path: Path) -> None:
+    scene = tmp_path / "nested.ass"
+    scene.write_text("options { " * 100_000)
+    assert len(codes(scene)) >= 1
+
+
+def test_a_file_that_includes_itself(tmp_path: Path) -> None:
+    scene = tmp_path / "self.ass"
+    scene.write_text('include "self.ass"\n' + STILL)
+    assert len(codes(scene)) >= 1
+
+
+def test_noise_is_no_scene(tmp_path: Path) -> None:
+    scene = tmp_path / "noise.ass"
+    scene.write_bytes(np.random.default_rng(1).integers(0, 256, 100_000, np.uint8).tobytes())
+    assert len(codes(scene)) >= 1
