@@ -27,15 +27,6 @@ def test_a_chain_of_shaders_that_is_too_long(tmp_path: Path) -> None:
     assert codes(scene) == ["limit-shader-depth"]
 
 
-def test_light_that_is_no_number_is_dropped_and_counted(tmp_path: Path) -> None:
-    scene = tmp_path / "bright.ass"
-    scene.write_text(STILL.replace("coat 1 }", "emission 3e38 emission_color 3e38 1 1 }"))
-    frame = lightsieve.render(scene, spp=1)
-    warnings = [item for item in frame.diagnostics if item.code == "render-non-finite"]
-    assert len(warnings) == 1
-    assert np.isfinite(frame.layer("RGBA")).all()
-
-
 def test_a_picture_that_is_too_large(tmp_path: Path) -> None:
     assert "limit-image-size" in codes(
         ROOT / "tests/scenes/still.ass", size=(2_000_000, 2_000_000)
