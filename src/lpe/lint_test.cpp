@@ -158,6 +158,7 @@ TEST(Overlap, OfAReplacedBuiltin) {
                                           {"diffuse", table.find("diffuse")->expr}};
     lint_overlaps(outputs, diagnostics);
     ASSERT_EQ(diagnostics.items().size(), 1U);
+    EXPECT_EQ(diagnostics.items()[0].code, Code::LpeOverlap);
     EXPECT_EQ(diagnostics.items()[0].message,
               "\"sss\" and \"diffuse\" both take \"C TD L\": added up, that counts twice");
 }

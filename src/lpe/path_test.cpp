@@ -40,6 +40,8 @@ TEST(PathText, MistakesAreBlamedAtTheirColumn) {
         EXPECT_EQ(parse_path(text, diagnostics), std::nullopt) << text;
         EXPECT_EQ(diagnostics.n_errors(), 1U);
         const Error& error = diagnostics.items()[0];
+        EXPECT_TRUE(error.code == Code::LpePath || error.code == Code::LpeUnclosed ||
+                    error.code == Code::LpeEvent);
         return std::to_string(error.where.line_column().column) + ": " + error.message + "; " +
                error.hint;
     };
