@@ -1,15 +1,18 @@
 #include "render/shader_program.h"
 
 
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <new>
 
+#include "core/arena.h"
 #include "core/error.h"
 
 namespace lightsieve {
 namespace {
+
+/// Parameter structs hold nothing that needs more.
+constexpr std::size_t kBlockAlign = 16;
 
 float component_of(const ShaderValue& v, int i) { return i == 0 ? v.rgb.r : i == 1 ? v.rgb.g : i == 2 ? v.rgb.b : v.a; }
 
@@ -37,6 +40,24 @@ void store_scalar(std::byte* at, ParamType type, float v) {
         default: return store(at, v);
     }
 }
+
+/// Memory for one patched block, given back when the evaluation ends: networks nest, so the arena works as a stack.
+class Scratch {
+  public:
+    explicit Scratch(std::size_t size) : mark_(arena().mark()), bytes_(static_cast<std::byte*>(arena().allocate(size, kBlockAlign))) {}
+    ~Scratch() { arena().release(mark_); }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    [[nodiscard]] std::byte* bytes() const { return bytes_; }
+
+  private:
+    static Arena& arena() {
+        static thread_local Arena per_thread;
+        return per_thread;
+    }
+    Arena::Mark mark_;
+    std::byte* bytes_;
+};
 
 int n_components(ParamType type) {
     switch (type) {
@@ -69,8 +90,8 @@ void store_value(std::byte* block, const ShaderProgram::Patch& p, const ShaderVa
 }  // namespace
 
 ShaderProgram::ShaderProgram(const NodeType& type, const std::byte* block)
-    : type_(&type), block_(static_cast<std::byte*>(::operator new[](type.block_size, std::align_val_t{16}))) {
-    LIGHTSIEVE_ASSERT(type.block_align <= 16 && type.block_size <= kMaxBlockSize, type.name.str());
+    : type_(&type), block_(static_cast<std::byte*>(::operator new[](type.block_size, std::align_val_t{kBlockAlign}))) {
+    LIGHTSIEVE_ASSERT(type.block_align <= kBlockAlign, type.name.str());
     std::memcpy(block_.get(), block, type.block_size);
 }
 
@@ -83,18 +104,18 @@ void ShaderProgram::patch(std::byte* copy, const ShadePoint& at) const {
 ShaderValue ShaderProgram::value(const ShadePoint& at) const {
     if (type_->eval_value == nullptr) return {kBlack, 1};
     if (patches_.empty()) return type_->eval_value(block_.get(), at);
-    alignas(16) std::array<std::byte, kMaxBlockSize> copy;
-    patch(copy.data(), at);
-    return type_->eval_value(copy.data(), at);
+    const Scratch copy(type_->block_size);
+    patch(copy.bytes(), at);
+    return type_->eval_value(copy.bytes(), at);
 }
 
 void ShaderProgram::closures(const ShadePoint& at, ClosureSet& out) const {
     out.set_records(records);
     if (type_->eval_closure == nullptr) return out.emit(0, value(at).rgb);
     if (patches_.empty()) return type_->eval_closure(block_.get(), at, out);
-    alignas(16) std::array<std::byte, kMaxBlockSize> copy;
-    patch(copy.data(), at);
-    type_->eval_closure(copy.data(), at, out);
+    const Scratch copy(type_->block_size);
+    patch(copy.bytes(), at);
+    type_->eval_closure(copy.bytes(), at, out);
 }
 
 }  // namespace lightsieve

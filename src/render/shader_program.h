@@ -1,8 +1,8 @@
 // Shader networks, ready to run: parameter blocks with their links resolved, and the lobes' records.
 //
-// Evaluating a shader copies its block to the stack, writes the results of linked shaders into the copy, and calls
-// the node's function: node code never asks whether a parameter is connected. A shader without links runs on its own
-// block. No string work, no allocation.
+// Evaluating a shader copies its block to the thread's arena, writes the results of linked shaders into the copy, and
+// calls the node's function: node code never asks whether a parameter is connected. A shader without links runs on its own
+// block. No string work; memory comes from the heap only until the arena has grown to the deepest network.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,6 @@
 #include "scene/shade_point.h"
 
 namespace lightsieve {
-
-/// Parameter blocks above this are refused when the scene is compiled.
-inline constexpr std::size_t kMaxBlockSize = 2048;
 
 class ShaderProgram {
   public:
