@@ -52,19 +52,21 @@ $(VENV)/.dev: $(VENV)/.installed constraints.txt pyproject.toml
 	$(PIP) install -c constraints.txt -r $@.txt
 	@touch $@
 
-demo: setup
-	@mkdir -p out
-	$(BIN)/lightsieve render scenes/showcase.ass -o out/showcase.exr
-	$(BIN)/lightsieve exr sheet out/showcase.exr -o out/showcase.png
+demo: out/showcase.png
 	@echo "layers: $(CURDIR)/out/showcase.exr"
 	@echo "sheet:  $(CURDIR)/out/showcase.png"
+out/showcase.exr: scenes/showcase.ass $(VENV)/.installed
+	@mkdir -p out
+	$(BIN)/lightsieve render scenes/showcase.ass -o $@
+out/showcase.png: out/showcase.exr
+	$(BIN)/lightsieve exr sheet $< -o $@
 
 cpp_tests: setup
 	cmake --build $(BUILD)
 
 test: dev cpp_tests
 	ctest --test-dir $(BUILD) --output-on-failure -j 2
-	$(BIN)/python -m pytest -m "not big"
+	$(BIN)/python -m pytest -n 2 -m "not big"
 
 bigtest: dev cpp_tests
 	$(BIN)/python -m pytest -m big
