@@ -1,0 +1,148 @@
+// The skydome on the bench of light_test_support.h, and its pictures.
+#include "nodes/light/light_test_support.h"
+
+namespace lightsieve {
+
+NodeType node_skydome_light();
+
+namespace {
+
+using namespace light_test;
+
+TEST(SkydomeLight, EvenDome) {
+    Bench b(node_skydome_light());
+    b.node.set("intensity", 2.0F);
+    b.make();
+    EXPECT_TRUE(b.light->is_skydome());
+    EXPECT_TRUE(b.light->infinite());
+    EXPECT_NEAR(sampled_irradiance(*b.light, {}, {0, 1, 0}).r, 2 * kPi, 2e-3F);
+    EXPECT_NEAR(b.light->irradiance(), 2 * kPi, 1e-4F);
+    expect_sound(*b.light, {});
+    EXPECT_EQ(b.node.get<float>("camera"), 1);
+    EXPECT_EQ(b.node.get<float>("transmission"), 1);
+}
+
+/// Irradiance of a dome by summing over directions.
+Color dome_irradiance(const Light& light, Vec3f normal) {
+    constexpr int kLatitudes = 1000;
+    double sum[3] = {};
+    for (int y = 0; y < kLatitudes; ++y)
+        for (int x = 0; x < 2 * kLatitudes; ++x) {
+            const double theta = (y + 0.5) / kLatitudes * static_cast<double>(kPi), phi = (x + 0.5) / kLatitudes * static_cast<double>(kPi);
+            const Vec3f d{static_cast<float>(std::sin(theta) * std::cos(phi)), static_cast<float>(std::cos(theta)), static_cast<float>(std::sin(theta) * std::sin(phi))};
+            const double weight = std::max(0.0, static_cast<double>(dot(d, normal))) * std::sin(theta) * square(kPi / kLatitudes);
+            const Color c = light.escape(d).radiance;
+            for (int i = 0; i < 3; ++i)
+                sum[i] += weight * static_cast<double>(c[i]);
+        }
+    return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
+}
+
+TEST(SkydomeLight, PictureIsSampledByBrightness) {
+    Bench b(node_skydome_light());
+    // A sun of 5 degrees, black ground, and a sky that varies.
+    b.context->shader = [](const ShadePoint& at) {
+        const Vec3f sun = normalize(Vec3f{1, 2, 0.5F});
+        if (dot(at.direction, sun) > std::cos(deg_to_rad(5))) return Color{50, 45, 40};
+        return at.direction.y < 0 ? kBlack : Color{0.2F, 0.3F, 0.3F + at.direction.x * 0.2F};
+    };
+    b.node.set("resolution", 400);
+    b.make();
+    expect_near(sampled_irradiance(*b.light, {}, {0, 1, 0}, 1U << 17U), dome_irradiance(*b.light, {0, 1, 0}), 4e-3F);
+    EXPECT_NEAR(b.light->irradiance(), average(dome_irradiance(*b.light, {0, 1, 0})), 0.02F);
+    expect_strategies_agree(*b.light, {});
+    expect_directions_follow_density(*b.light, {});
+    // Nothing that shines has density 0, and black parts get few samples.
+    int black = 0;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        EXPECT_GT(b.light->escape(b.light->sample({}, sobol(i)).wi).pdf, 0);
+        black += is_black(b.light->sample({}, sobol(i)).radiance) ? 1 : 0;
+    }
+    EXPECT_LT(black, 100);
+}
+
+TEST(SkydomeLight, DetailsBetweenTheSamplesOfTheTableAreNotLost) {
+    Bench b(node_skydome_light());
+    // A sun much smaller than a cell, somewhere the table does not look.
+    b.context->shader = [](const ShadePoint& at) { return dot(at.direction, normalize(Vec3f{0.31F, 0.17F, 0.43F})) > std::cos(deg_to_rad(0.05F)) ? Color::grey(1e6F) : kBlack; };
+    b.node.set("resolution", 16);
+    b.make();
+    EXPECT_GT(b.light->irradiance(), 0);
+    EXPECT_GT(b.light->escape(normalize(Vec3f{0.31F, 0.17F, 0.43F})).pdf, 0);
+}
+
+TEST(SkydomeLight, Layouts) {
+    // u in red, v in green. Latlong: u = 1/2 - atan2(x, z) / 2 pi, v = 1/2 + asin(y) / pi.
+    const auto uv_of = [](std::int32_t format, Vec3f d) {
+        Bench b(node_skydome_light());
+        b.context->shader = [](const ShadePoint& at) { return Color{at.uv.x, at.uv.y, 0}; };
+        b.node.set_enum("format", format).set("resolution", 16);
+        b.make();
+        const Color c = b.light->escape(d).radiance;
+        return Vec2f{c.r, c.g};
+    };
+    const auto expect_uv = [](Vec2f uv, float u, float v) {
+        EXPECT_NEAR(uv.x, u, 1e-5F);
+        EXPECT_NEAR(uv.y, v, 1e-5F);
+    };
+    constexpr std::int32_t kBall = 0, kAngular = 1, kLatLong = 2;
+    expect_uv(uv_of(kLatLong, {0, 0, 1}), 0.5F, 0.5F);
+    expect_uv(uv_of(kLatLong, {1, 0, 0}), 0.25F, 0.5F);
+    expect_uv(uv_of(kLatLong, {-1, 0, 0}), 0.75F, 0.5F);
+    expect_uv(uv_of(kLatLong, normalize(Vec3f{0, 1, 1})), 0.5F, 0.75F);
+    expect_uv(uv_of(kAngular, {0, 0, 1}), 0.5F, 0.5F);
+    expect_uv(uv_of(kAngular, {0, 1, 0}), 0.5F, 0.75F);
+    expect_uv(uv_of(kAngular, {1, 0, 0}), 0.25F, 0.5F);
+    expect_uv(uv_of(kBall, {0, 1, 0}), 0.5F, 0.5F + 0.5F * std::sin(kPi / 4));
+    expect_uv(uv_of(kBall, {0, 0, 1}), 0.5F, 0.5F);
+}
+
+TEST(SkydomeLight, MatrixTurnsThePicture) {
+    Bench b(node_skydome_light());
+    b.context->shader = [](const ShadePoint& at) { return Color{at.uv.x, at.uv.y, at.direction.x}; };
+    b.node.set("resolution", 64);
+    // Local X goes to world Z; scale and shift do not matter.
+    Mat4f m;
+    m.m = {{{0, 0, 3, 0}, {0, 3, 0, 0}, {-3, 0, 0, 0}, {7, 8, 9, 1}}};
+    b.matrix(m).make();
+    expect_near(b.light->escape({0, 0, 1}).radiance, {0.25F, 0.5F, 0}, 1e-4F);
+    expect_near(b.light->escape({-1, 0, 0}).radiance, {0.5F, 0.5F, -1}, 1e-4F);
+    expect_sound(*b.light, {});
+    // A mirrored dome shows a mirrored picture.
+    Bench mirrored(node_skydome_light());
+    mirrored.context->shader = b.context->shader;
+    mirrored.node.set("resolution", 64);
+    mirrored.matrix(Mat4f::scale({-1, 1, 1})).make();
+    expect_near(mirrored.light->escape({1, 0, 0}).radiance, {0.75F, 0.5F, 1}, 1e-4F);
+    expect_strategies_agree(*mirrored.light, {});
+}
+
+TEST(SkydomeLight, HostileParameters) {
+    Bench singular(node_skydome_light());
+    singular.matrix(Mat4f::scale({0, 0, 0})).make();
+    ASSERT_NE(singular.light, nullptr);
+    EXPECT_EQ(singular.context->diagnostics().n_warnings(), 1U);
+
+    Bench nan(node_skydome_light());
+    nan.context->shader = [](const ShadePoint& at) { return at.uv.x < 0.5F ? Color::grey(std::nanf("")) : kWhite; };
+    nan.node.set("resolution", -5);
+    nan.make();
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        const LightSample s = nan.light->sample({}, sobol(i));
+        EXPECT_TRUE(std::isfinite(s.pdf) && s.pdf > 0);
+    }
+    EXPECT_TRUE(std::isfinite(nan.light->irradiance()));
+
+    Bench off(node_skydome_light());
+    off.node.set("intensity", 0.0F);
+    off.make();
+    EXPECT_EQ(off.light->irradiance(), 0);
+    Bench colour(node_skydome_light());
+    colour.context->color = {1, std::nanf(""), 1};
+    colour.make();
+    EXPECT_EQ(colour.light, nullptr);
+    EXPECT_EQ(colour.context->diagnostics().items().at(0).where.text(), "color");
+}
+
+}  // namespace
+}  // namespace lightsieve
