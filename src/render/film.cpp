@@ -60,13 +60,15 @@ void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offs
     for (std::size_t i = 0; i < views_.size(); ++i) {
         ViewSums& sums = views_[i];
         const double weight = double{weights[i]};
-        if (!sums.closest) {
-            sums.weight[pixel] += weight;
-            ++sums.count[pixel];
-            sums.alpha[pixel] += double{sample.alpha} * weight;
-            add_light(sums, pixel, sample, double{scale}, weight);
+        if (sums.closest) {
+            add_if_nearest(sums, pixel, sample, double{scale}, offset);
+            continue;
         }
-        if (wants_data_ || sums.closest) add_data(sums, pixel, sample, offset, weight);
+        sums.weight[pixel] += weight;
+        ++sums.count[pixel];
+        sums.alpha[pixel] += double{sample.alpha} * weight;
+        add_light(sums, pixel, sample, double{scale}, weight);
+        if (wants_data_) add_data(sums, pixel, sample.first, weight);
     }
 }
 
@@ -89,21 +91,23 @@ void Film::add_to_atoms(ViewSums& sums, std::size_t pixel, std::span<const Sampl
     }
 }
 
-void Film::add_data(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, Vec2f offset, double weight) {
-    const FirstHit& f = sample.first;
-    if (sums.closest) {
-        // Samples inside the filter compete by depth; a sample outside of it only stands in for none at all.
-        const float radius = plan_.views[sums.view].filter->radius();
-        const bool inside = std::max(std::abs(offset.x), std::abs(offset.y)) <= radius;
-        const float distance = f.hit ? f.depth : kLargestDepth;
-        const float rank = inside ? distance : kLargestDepth + std::hypot(offset.x, offset.y);
-        if (rank < sums.nearest_rank[pixel]) {
-            sums.nearest_rank[pixel] = rank;
-            sums.nearest[pixel] = f;
-            sums.alpha[pixel] = double{sample.alpha};
-        }
-        return;
-    }
+void Film::add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp, Vec2f offset) {
+    // Samples inside the filter compete by depth; a sample outside of it only stands in for none at all.
+    const float radius = plan_.views[sums.view].filter->radius();
+    const bool inside = std::max(std::abs(offset.x), std::abs(offset.y)) <= radius;
+    const float distance = sample.first.hit ? sample.first.depth : kLargestDepth;
+    const float rank = inside ? distance : kLargestDepth + std::hypot(offset.x, offset.y);
+    if (rank >= sums.nearest_rank[pixel]) return;
+    sums.nearest_rank[pixel] = rank;
+    sums.nearest[pixel] = sample.first;
+    sums.alpha[pixel] = double{sample.alpha};
+    sums.beauty[pixel] = {};
+    for (std::size_t i = 0; i < sums.n_slots; ++i)
+        sums.slots[i][pixel] = {};
+    add_light(sums, pixel, sample, clamp, 1);
+}
+
+void Film::add_data(ViewSums& sums, std::size_t pixel, const FirstHit& f, double weight) {
     if (!f.hit) return;
     const std::array<float, 9> values{f.depth, f.normal.x, f.normal.y, f.normal.z, f.position.x, f.position.y, f.position.z, f.uv.x, f.uv.y};
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -117,6 +121,7 @@ void Film::add_data(ViewSums& sums, std::size_t pixel, const SampleBuffer& sampl
 }
 
 double Film::norm_of(const ViewSums& sums, std::size_t pixel) const {
+    if (sums.closest) return 1;
     // The weights of a filter with negative lobes may nearly cancel; their mean is 1, so the count does.
     if (plan_.views[sums.view].is_signed) return sums.count[pixel] > 0 ? 1.0 / sums.count[pixel] : 0;
     return sums.weight[pixel] > 0 ? 1 / sums.weight[pixel] : 0;
@@ -169,7 +174,7 @@ void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer, std::ve
     const std::size_t channels = layer.info.n_channels;
     for (std::size_t i = 0; i < sums.weight.size(); ++i) {
         const FirstHit& f = sums.nearest[i];
-        const double norm = sums.closest ? 0 : norm_of(sums, i);
+        const double norm = norm_of(sums, i);
         const auto value = [&](std::size_t index, float nearest) { return sums.closest ? nearest : static_cast<float>(sums.data[i][index] * norm); };
         const auto opacity = [&](std::size_t c) { return sums.closest ? f.opacity[static_cast<int>(c)] : static_cast<float>(sums.opacity[i][c] * norm); };
         float* at = &out[i * channels];
@@ -187,7 +192,7 @@ void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer, std::ve
                 at[0] = value(7, f.uv.x);
                 at[1] = value(8, f.uv.y);
                 break;
-            case LayerSource::Alpha: at[0] = static_cast<float>(sums.alpha[i] * (sums.closest ? 1 : norm)); break;
+            case LayerSource::Alpha: at[0] = static_cast<float>(sums.alpha[i] * norm); break;
             case LayerSource::Opacity:
                 if (channels == 1) {
                     at[0] = (opacity(0) + opacity(1) + opacity(2)) / 3;

@@ -87,7 +87,9 @@ class Film {
     /// clamp, weight  factors of clamping and of the filter
     void add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp, double weight);
     void add_to_atoms(ViewSums& sums, std::size_t pixel, std::span<const SampleBuffer::Contribution> contributions, double factor);
-    void add_data(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, Vec2f offset, double weight);
+    void add_data(ViewSums& sums, std::size_t pixel, const FirstHit& hit, double weight);
+    /// For a filter that keeps the nearest sample: lets it take the pixel if it is that.
+    void add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp, Vec2f offset);
     /// What a pixel's sums are multiplied by to become means.
     [[nodiscard]] double norm_of(const ViewSums& sums, std::size_t pixel) const;
     [[nodiscard]] const ViewSums& sums_of(std::uint32_t view) const;
