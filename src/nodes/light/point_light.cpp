@@ -53,7 +53,7 @@ class SphereSource final : public Light {
         return {s.wi, s.distance, emitted(from + s.wi * s.distance), s.pdf, false};
     }
     [[nodiscard]] LightEval hit(Vec3f from, const LightHit& at) const override {
-        const float pdf = sphere_pdf(center_, radius_, from);
+        const float pdf = from_outside(from, at) ? sphere_pdf(center_, radius_, from) : 0;
         return pdf > 0 ? LightEval{emitted(at.position), pdf} : LightEval{};
     }
     [[nodiscard]] const ShapeGeometry* geometry() const override { return &geometry_; }

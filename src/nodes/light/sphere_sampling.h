@@ -6,6 +6,7 @@
 
 #include "core/sampling.h"
 #include "core/vec.h"
+#include "scene/light.h"
 
 namespace lightsieve {
 
@@ -46,5 +47,8 @@ inline SphereDirection sample_sphere(Vec3f center, float radius, Vec3f from, Vec
     out.pdf = 1 / (2 * kPi * one_minus_cos);
     return out;
 }
+
+/// Whether a ray from `from` meets a sphere there from outside. Rays also meet the far side, from within: it is dark.
+inline bool from_outside(Vec3f from, const LightHit& hit) { return dot(hit.position - from, hit.normal) < 0; }
 
 }  // namespace lightsieve

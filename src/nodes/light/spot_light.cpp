@@ -101,9 +101,9 @@ class SpotSource final : public Light {
         if (!(beam > 0)) return {};
         return radius_ > 0 ? sample_ball(from, u, beam) : sample_point(from, beam);
     }
-    [[nodiscard]] LightEval hit(Vec3f from, const LightHit&) const override {
+    [[nodiscard]] LightEval hit(Vec3f from, const LightHit& hit) const override {
         const float beam = shape(from);
-        const float pdf = radius_ > 0 && beam > 0 ? sphere_pdf(position_, radius_, from) : 0;
+        const float pdf = radius_ > 0 && beam > 0 && from_outside(from, hit) ? sphere_pdf(position_, radius_, from) : 0;
         return pdf > 0 ? LightEval{emitted(from) * beam, pdf} : LightEval{};
     }
     [[nodiscard]] const ShapeGeometry* geometry() const override { return radius_ > 0 ? &geometry_ : nullptr; }
