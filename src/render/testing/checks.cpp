@@ -41,10 +41,6 @@ std::string place(const Picture& picture, std::size_t pixel, int channel) {
     return "pixel " + std::to_string(pixel % width) + ' ' + std::to_string(pixel / width) + " channel " + std::to_string(channel) + ": ";
 }
 
-/// Mean and standard error of a list.
-struct Estimate {
-    double mean = 0, error = 0;
-};
 Estimate estimate(const std::vector<double>& values) {
     const double n = static_cast<double>(values.size());
     double sum = 0, squares = 0;
@@ -67,6 +63,8 @@ std::vector<double> channel_of(const Picture& picture, const std::string& layer,
 constexpr double kRounding = 2e-6;
 
 }  // namespace
+
+Estimate estimate(const Picture& picture, const std::string& layer, int channel) { return estimate(channel_of(picture, layer, channel)); }
 
 Verdict check_sum(const Picture& picture, const std::string& whole, const std::vector<std::string>& parts, double tolerance) {
     Worst worst;

@@ -33,6 +33,12 @@ struct Verdict {
     operator ::testing::AssertionResult() const { return good ? ::testing::AssertionSuccess() : ::testing::AssertionFailure() << why; }
 };
 
+/// Mean over all pixels of a channel, and the standard error of that mean.
+struct Estimate {
+    double mean = 0, error = 0;
+};
+[[nodiscard]] Estimate estimate(const Picture& picture, const std::string& layer, int channel);
+
 /// The parts add up to the whole in every pixel and channel.
 [[nodiscard]] Verdict check_sum(const Picture& picture, const std::string& whole, const std::vector<std::string>& parts,
                                 double tolerance = kSumTolerance);
