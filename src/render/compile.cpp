@@ -145,6 +145,11 @@ const NodeInstance* Compiler::default_camera() {
     }
     for (const auto& node : graph_.nodes())
         if (node->kind() == NodeKind::Camera) return node.get();
+    if (graph_.options() == nullptr) {
+        // An archive for other scenes: everything in it can be checked. render_scene refuses it.
+        diagnostics_.lint(Code::CameraMissing, "the file has neither options nor a camera: only a scene that includes it can be rendered", {});
+        return nullptr;
+    }
     diagnostics_.error(Code::CameraMissing, "the scene has no camera", option_place("camera"), "add a persp_camera and name it in options.camera");
     return nullptr;
 }

@@ -116,6 +116,8 @@ Worker& Renderer::worker() {
 }
 
 RenderResult Renderer::run() {
+    for (const Pass& pass : scene_.plan.passes)
+        if (!pass.camera) throw InputError({Code::CameraMissing, "the scene has no camera", {}, "add options and a persp_camera, or render the scene that includes this file"});
     open_drivers();
     const RenderSettings& s = scene_.settings;
     result_.width = s.region.x1 - s.region.x0 + 1;
