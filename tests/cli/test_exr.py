@@ -97,6 +97,9 @@ def test_diff_measures_each_layer(run: Run, frame: str, tmp_path: Path) -> None:
     assert layers["diffuse"]["different"] == 0
     assert layers["mirrored"]["different"] == 1
     assert layers["mirrored"]["max_at"] == {"x": 7, "y": 5}
+    assert layers["diffuse"]["flip"] == 0
+    assert 0 < layers["mirrored"]["flip"] < 0.1
+    assert layers["Z"]["flip"] is None
     assert layers["mirrored"]["rmse"] == pytest.approx(0.25 / np.sqrt(32 * 24 * 3), rel=1e-3)
     assert run("exr", "diff", "other.exr", frame, "--max-rmse", "1e-4").code == 1
 

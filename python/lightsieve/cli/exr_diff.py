@@ -15,7 +15,8 @@ JSON = {
     "b": "the reference",
     "passed": "false if --max-rmse was given and exceeded, or a layer is missing",
     "layers": "one object a layer that both have: `name`, `rmse`, `relative_mse`, "
-    "`max_difference`, `max_at` (`x`, `y`), `values`, `different`, `nonfinite`",
+    "`flip` (0 to 1; null for data), `max_difference`, `max_at` (`x`, `y`), `values`, "
+    "`different`, `nonfinite`",
     "only_a": "names of layers that only A has",
     "only_b": "names of layers that only B has",
 }
@@ -54,11 +55,14 @@ def command(
 ) -> None:
     """Compare two files layer by layer.
 
-    Prints RMSE, relative MSE and the largest difference of each layer that both have.
+    Prints RMSE, relative MSE, FLIP (how much a person sees the pictures differ, 0 to 1) and the
+    largest difference of each layer that both have.
     """
     from lightsieve import exr
+    from lightsieve.extras.flip import flip_of_layers
 
     result = exr.diff(a, b, picture, layer)
+    flips = flip_of_layers(exr.read(a), exr.read(b))
     worst = max((row.rmse for row in result.layers), default=0.0)
     missing = [*result.only_a, *result.only_b]
     failed = max_rmse is not None and (worst > max_rmse or bool(missing) or not result.layers)
@@ -73,6 +77,7 @@ def command(
                         "name": row.name,
                         "rmse": row.rmse,
                         "relative_mse": row.relative_mse,
+                        "flip": flips.get(row.name),
                         "max_difference": row.max_difference,
                         "max_at": {"x": row.max_x, "y": row.max_y},
                         "values": row.n_values,
@@ -86,12 +91,13 @@ def command(
             }
         )
     else:
-        rows = [("layer", "RMSE", "relative MSE", "largest", "at", "different")]
+        rows = [("layer", "RMSE", "relative MSE", "FLIP", "largest", "at", "different")]
         rows += [
             (
                 row.name,
                 f"{row.rmse:.6g}",
                 f"{row.relative_mse:.6g}",
+                f"{flips[row.name]:.4f}" if row.name in flips else "",
                 f"{row.max_difference:.6g}",
                 f"{row.max_x},{row.max_y}",
                 f"{row.n_different:,} of {row.n_values:,}"
