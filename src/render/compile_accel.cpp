@@ -22,6 +22,8 @@ void Compiler::find_mask_types() {
         for (const std::uint8_t mask : {object.visibility, object.sidedness}) {
             const std::uint8_t scattered = mask & kScattered;
             if (scattered != 0 && scattered != kScattered) scene_->mask_types = kScattered;
+            const bool in_shadow_rays = (mask & ray_bit(RayType::Shadow)) != 0;
+            if (scattered != (in_shadow_rays ? kScattered : 0)) scene_->shadows_by_mask = true;
         }
 }
 

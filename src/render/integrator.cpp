@@ -61,7 +61,12 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time, const M
         RayHit hit;
         ++counts.rays;
         const bool met = scene_.accel->intersect(ray, ray_mask(), hit);
-        if (scene_.light_accel && add_area_lights(ray, met ? hit.t : ray.t_max)) return;
+        if (!by_shadow_rays()) {
+            if (scene_.light_accel && add_area_lights(ray, met ? hit.t : ray.t_max)) return;
+        } else if (segment_ == last_.next_segment) {
+            if (scene_.light_accel) add_area_lights(ray, ray.t_max);
+            add_infinite_lights(ray);
+        }
 
         // A ray that leaves the scene brings infinite lights and the background.
         if (!met) return add_escape(ray);
@@ -217,40 +222,59 @@ bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
             passed_ *= 1 - hidden;
             continue;
         }
-        if (!last_.delta && (light.samples_only || last_.samples_only)) continue;
         LightHit seen_from = at;
         seen_from.distance = length(at.position - last_.position);
-        const LightEval eval = light.light->hit(last_.position, seen_from);
-        if (is_black(eval.radiance)) continue;
-        const float pick = last_.lights->probability(last_.position, last_.pick_normal, index);
-        if (!(pick > 0)) continue;  // in the dark by its own bounds, or not in the shape's light group
-        const float weight = last_.delta ? 1 : power_heuristic(last_.pdf, pick * eval.pdf);
-        deposit(terminal, [&](std::size_t g) { return eval.radiance * (weight * light_factor(light.common, groups_[g].key.ray_type, n_scatter_)); });
+        add_met_light(index, light.light->hit(last_.position, seen_from), terminal, ray, hit.t * (1 - kShadowEpsilon));
     }
     return false;
+}
+
+/// Light that a ray from the last vertex met by chance: the twin of a light sample, and weighted against it.
+template <class Tracker>
+void Integrator<Tracker>::add_met_light(std::uint32_t index, const LightEval& eval, Terminal terminal, const Ray& ray, float distance) {
+    const SceneLight& light = scene_.lights[index];
+    if (is_black(eval.radiance) || (!last_.delta && (light.samples_only || last_.samples_only))) return;
+    const float pick = last_.lights->probability(last_.position, last_.pick_normal, index);
+    if (!(pick > 0)) return;  // in the dark by its own bounds, or not in the shape's light group
+    Color arriving = eval.radiance * (last_.delta ? 1 : power_heuristic(last_.pdf, pick * eval.pdf));
+    if (by_shadow_rays()) {
+        Ray shadow = ray;
+        shadow.t_max = distance;
+        arriving *= visibility_along(shadow, nullptr).straight;
+    }
+    deposit(terminal, [&](std::size_t g) { return arriving * light_factor(light.common, groups_[g].key.ray_type, n_scatter_); });
+}
+
+/// Where shadow rays see other shapes than other rays do, they decide for both twins what hides a light.
+template <class Tracker>
+bool Integrator<Tracker>::by_shadow_rays() const {
+    return scene_.shadows_by_mask && n_scatter_ > 0 && !last_.delta;
+}
+
+/// Infinite lights along a ray that meets nothing. Returns the alpha of those that the camera sees.
+template <class Tracker>
+float Integrator<Tracker>::add_infinite_lights(const Ray& ray) {
+    float alpha = 0;
+    for (const std::uint32_t index : scene_.infinite_lights) {
+        const SceneLight& light = scene_.lights[index];
+        const LightEval eval = light.light->escape(ray.direction);
+        if (n_scatter_ == 0 && light.common.camera > 0) alpha = std::max(alpha, eval.pdf > 0 || !is_black(eval.radiance) || light.is_skydome ? std::min(light.common.camera, 1.0F) : 0.0F);
+        // A skydome seen directly is background, and so is the light of one with aov_indirect.
+        const bool background = light.is_skydome && (n_scatter_ == 0 || light.common.aov_indirect);
+        const Terminal terminal = background ? Terminal{light.as_background, light.background_event} : Terminal{light.as_light, light.light_event};
+        if (n_scatter_ > 0) {
+            add_met_light(index, eval, terminal, ray, kInfinity);
+        } else if (!is_black(eval.radiance)) {
+            deposit(terminal, [&](std::size_t) { return eval.radiance * light_factor(light.common, RayType::Camera, 0); });
+        }
+    }
+    return alpha;
 }
 
 /// Infinite lights and the background shader.
 template <class Tracker>
 void Integrator<Tracker>::add_escape(const Ray& ray) {
-    float alpha = 0;
-    for (const std::uint32_t index : scene_.infinite_lights) {
-        const SceneLight& light = scene_.lights[index];
-        if (n_scatter_ > 0 && !last_.delta && (light.samples_only || last_.samples_only)) continue;
-        const LightEval eval = light.light->escape(ray.direction);
-        if (n_scatter_ == 0 && light.common.camera > 0) alpha = std::max(alpha, eval.pdf > 0 || !is_black(eval.radiance) || light.is_skydome ? std::min(light.common.camera, 1.0F) : 0.0F);
-        if (is_black(eval.radiance)) continue;
-        float weight = 1;
-        if (n_scatter_ > 0) {
-            const float pick = last_.lights->probability(last_.position, last_.pick_normal, index);
-            if (!(pick > 0)) continue;
-            if (!last_.delta) weight = power_heuristic(last_.pdf, pick * eval.pdf);
-        }
-        // A skydome seen directly is background, and so is the light of one with aov_indirect.
-        const bool background = light.is_skydome && (n_scatter_ == 0 || light.common.aov_indirect);
-        const Terminal terminal = background ? Terminal{light.as_background, light.background_event} : Terminal{light.as_light, light.light_event};
-        deposit(terminal, [&](std::size_t g) { return eval.radiance * (weight * light_factor(light.common, groups_[g].key.ray_type, n_scatter_)); });
-    }
+    float alpha = by_shadow_rays() ? 0 : add_infinite_lights(ray);
     if (scene_.background != nullptr && !lights_only_) {
         const Color radiance = background_along(ray);
         const auto visible = [&](std::size_t g) { return (scene_.background_visibility & bit_of(groups_[g])) != 0 && !groups_[g].key.lights_only; };
@@ -375,7 +399,7 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
 
     // Without a way to meet the light by a ray the light sample stands alone.
     const SceneObject& object = *surface.object;
-    const bool samples_only = light.samples_only || !object.receive_shadows || !object.shadow_lights.empty();
+    const bool samples_only = light.samples_only || object.tampers_with_shadows();
     const float pdf_light = pick.probability * sample.pdf;
     const float weight = sample.delta || samples_only ? 1 : power_heuristic(pdf_light, pdf_lobes);
     const float kept = low_light_survival(value, light, sample.radiance * (weight / pdf_light));
@@ -547,7 +571,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
 
     const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
     last_ = {surface.at.position, transmissive_ ? Vec3f{0, 0, 0} : surface.outward, surface.object->lights, pdf, delta,
-             !surface.object->receive_shadows || !surface.object->shadow_lights.empty()};
+             surface.object->tampers_with_shadows(), segment_ + 1};
     footprint_.width += footprint_.spread * surface.t;
     ray = {offset_ray_origin(surface.at.position, side), sample.wi, 0, kInfinity, surface.at.time};
     return true;

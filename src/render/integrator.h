@@ -45,6 +45,7 @@ class Integrator {
         float pdf = 0;                          ///< of the direction, mixture of all lobes, per solid angle
         bool delta = true;                      ///< the direction could not have come from a light sample
         bool samples_only = false;              ///< shadows on the surface are tampered with: rays find no lights
+        std::uint32_t next_segment = 0;         ///< of the path: the first one after the vertex
     };
     /// What surfaces between a point and a light let through.
     struct Visibility {
@@ -66,6 +67,7 @@ class Integrator {
     [[nodiscard]] std::uint32_t ray_mask() const;
     bool add_area_lights(const Ray& ray, float t_surface);
     void add_escape(const Ray& ray);
+    float add_infinite_lights(const Ray& ray);
     void add_exit_background(const Ray& ray);
     [[nodiscard]] Color background_along(const Ray& ray) const;
     void note_first_hit(const Surface& surface, const Mat4f& camera_from_world);
@@ -81,6 +83,8 @@ class Integrator {
     // Parts of them.
     template <class Value>
     void deposit(Terminal terminal, const Value& value);
+    void add_met_light(std::uint32_t index, const LightEval& eval, Terminal terminal, const Ray& ray, float distance);
+    [[nodiscard]] bool by_shadow_rays() const;
     template <class Value>
     void deposit_scattered(Terminal terminal, const Value& value);
     /// How much light gets from the light to the surface.

@@ -37,6 +37,8 @@ struct SceneObject {
     bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;
     bool may_be_transparent = false;       ///< rays may pass straight through
     bool may_tint_shadows = false;         ///< shadow rays may, though other rays do not
+    /// What hides lights from it is not what hides them from a ray that leaves it: only light samples find lights.
+    [[nodiscard]] bool tampers_with_shadows() const { return !receive_shadows || !self_shadows || !shadow_lights.empty(); }
 };
 
 struct SceneLight {
@@ -93,6 +95,7 @@ class Scene {
     DepthRules depth_rules{{}, {}};
     /// Ray types that some shape treats unlike others (visibility, sidedness, matte): bits that must be told apart when tracing.
     std::uint8_t mask_types = 0;
+    bool shadows_by_mask = false;                     ///< some shape hides lights from shadow rays only, or from others only
     bool has_transparency = false;                    ///< some shape may be transparent to shadows
     bool capture = false, write_files = true;         ///< as RenderOptions
     AovPlan plan;
