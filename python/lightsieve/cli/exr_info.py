@@ -95,6 +95,9 @@ def command(
     if attributes:
         typer.echo("attributes")
         _output.print_table(
-            ((f"  {name}", str(value)) for name, value in sorted(info.attributes.items())),
+            (
+                (f"  {name}", str(value).replace("\n", "; "))
+                for name, value in sorted(info.attributes.items())
+            ),
             ["bold"],
         )
