@@ -122,8 +122,10 @@ void Film::add_data(ViewSums& sums, std::size_t pixel, const FirstHit& f, double
 
 double Film::norm_of(const ViewSums& sums, std::size_t pixel) const {
     if (sums.closest) return 1;
-    // The weights of a filter with negative lobes may nearly cancel; their mean is 1, so the count does.
-    if (plan_.views[sums.view].is_signed) return sums.count[pixel] > 0 ? 1.0 / sums.count[pixel] : 0;
+    // Dividing by the sum of weights keeps even surfaces even. Those of a filter with negative lobes may nearly cancel when
+    // samples are few; their mean is 1, so the count serves then.
+    constexpr double kLeastMeanWeight = 0.25;
+    if (plan_.views[sums.view].is_signed && sums.weight[pixel] < kLeastMeanWeight * sums.count[pixel]) return 1.0 / sums.count[pixel];
     return sums.weight[pixel] > 0 ? 1 / sums.weight[pixel] : 0;
 }
 
