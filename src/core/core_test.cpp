@@ -81,6 +81,15 @@ TEST(Sobol, PixelsAndPairsDiffer) {
     EXPECT_NE(Sampler(0, 0, 0, 1).at2(0), Sampler(0, 0, 0, 1).at2(1));
 }
 
+TEST(Sobol, FourPairsAtOnceAreTheSame) {
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        const Sampler sampler(i * 7, 11, i * i, 3);
+        const std::array<Vec2f, 4> four = sampler.at2x4(i);
+        for (std::uint32_t k = 0; k < 4; ++k)
+            EXPECT_EQ(four[k], sampler.at2(i + k)) << i;
+    }
+}
+
 TEST(Distribution, SamplesMatchDensities) {
     const std::vector<float> values{1, 0, 3, 4};
     const Distribution1D d{values};

@@ -16,21 +16,6 @@ Mat4f operator*(const Mat4f& a, const Mat4f& b) {
     return out;
 }
 
-Vec3f Mat4f::point(Vec3f p) const {
-    return {p.x * m[0][0] + p.y * m[1][0] + p.z * m[2][0] + m[3][0], p.x * m[0][1] + p.y * m[1][1] + p.z * m[2][1] + m[3][1],
-            p.x * m[0][2] + p.y * m[1][2] + p.z * m[2][2] + m[3][2]};
-}
-
-Vec3f Mat4f::vector(Vec3f v) const {
-    return {v.x * m[0][0] + v.y * m[1][0] + v.z * m[2][0], v.x * m[0][1] + v.y * m[1][1] + v.z * m[2][1],
-            v.x * m[0][2] + v.y * m[1][2] + v.z * m[2][2]};
-}
-
-Vec3f Mat4f::normal_by_inverse(Vec3f n) const {
-    return {n.x * m[0][0] + n.y * m[0][1] + n.z * m[0][2], n.x * m[1][0] + n.y * m[1][1] + n.z * m[1][2],
-            n.x * m[2][0] + n.y * m[2][1] + n.z * m[2][2]};
-}
-
 Mat4f Mat4f::transposed() const {
     Mat4f out;
     for (std::size_t i = 0; i < 4; ++i)

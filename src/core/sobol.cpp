@@ -3,8 +3,22 @@
 namespace lightsieve {
 namespace {
 
-constexpr std::uint32_t reverse_bits(std::uint32_t x) {
-    x = __builtin_bswap32(x);
+/// Four words that one instruction takes at once (an extension that GCC and Clang share). Everything below is written once
+/// for a word and for four of them.
+using Word4 = std::uint32_t __attribute__((vector_size(16)));
+using Byte16 = std::uint8_t __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
+using Float4 = float __attribute__((vector_size(16)));
+
+constexpr std::uint32_t reverse_bytes(std::uint32_t x) { return __builtin_bswap32(x); }
+Word4 reverse_bytes(Word4 x) {
+    constexpr Byte16 kOrder{3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12};
+    return __builtin_bit_cast(Word4, __builtin_shuffle(__builtin_bit_cast(Byte16, x), kOrder));
+}
+
+template <class Word>
+constexpr Word reverse_bits(Word x) {
+    x = reverse_bytes(x);
     x = ((x & 0x0f0f0f0fU) << 4U) | ((x >> 4U) & 0x0f0f0f0fU);
     x = ((x & 0x33333333U) << 2U) | ((x >> 2U) & 0x33333333U);
     return ((x & 0x55555555U) << 1U) | ((x >> 1U) & 0x55555555U);
@@ -12,7 +26,8 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
 
 /// Owen scrambling of a bit-reversed number: each bit is flipped by a hash of the bits below it.
 /// Source: Vegdahl 2021, "Building a Better LK Hash", an improvement of Burley 2020, listing 2.
-constexpr std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
+template <class Word>
+constexpr Word laine_karras(Word x, Word seed) {
     x ^= x * 0x3d20adeaU;
     x += seed;
     x *= (seed >> 16U) | 1U;
@@ -21,29 +36,54 @@ constexpr std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-/// Second Sobol dimension of index i, as 32 bits with the first digit at the top. The first is the bit reversal.
-/// Direction numbers of primitive polynomial x + 1: v[j] = v[j-1] ^ (v[j-1] >> 1), built by carry-less products.
-constexpr std::uint32_t sobol_second(std::uint32_t i) {
-    // Pascal's triangle modulo 2 in five steps (i.e. multiplication by the upper triangular matrix of ones).
-    std::uint32_t x = i;
-    x ^= (x >> 16U) & 0x0000ffffU;
-    x ^= (x >> 8U) & 0x00ff00ffU;
-    x ^= (x >> 4U) & 0x0f0f0f0fU;
-    x ^= (x >> 2U) & 0x33333333U;
-    x ^= (x >> 1U) & 0x55555555U;
-    return reverse_bits(x);
+/// Second Sobol dimension of index i, bit-reversed (the first, bit-reversed, is the index itself).
+/// Direction numbers of primitive polynomial x + 1: v[j] = v[j-1] ^ (v[j-1] >> 1), i.e. Pascal's triangle modulo 2, i.e.
+/// multiplication by the upper triangular matrix of ones in five steps.
+template <class Word>
+constexpr Word reversed_sobol_second(Word i) {
+    i ^= (i >> 16U) & 0x0000ffffU;
+    i ^= (i >> 8U) & 0x00ff00ffU;
+    i ^= (i >> 4U) & 0x0f0f0f0fU;
+    i ^= (i >> 2U) & 0x33333333U;
+    return i ^ ((i >> 1U) & 0x55555555U);
+}
+
+/// As core/sobol.h has it for one word: signed numbers are what instructions convert, and 24 bits fit.
+Float4 unit_float(Word4 x) {
+    return __builtin_convertvector(__builtin_bit_cast(Int4, x >> 8U), Float4) * 0x1p-24F;
+}
+
+/// One dimension each of x and y, as words.
+template <class Word>
+struct Point {
+    Word x, y;
+};
+
+/// seed     of the pair
+/// digits   the sample's index, bit-reversed
+template <class Word>
+constexpr Point<Word> scrambled(Word seed, Word digits) {
+    // Shuffle the order of samples within nested powers of two, then scramble each dimension. The first dimension is the
+    // reversed index and scrambling wants reversed digits: the reversals cancel.
+    const Word index = reverse_bits(laine_karras(digits, seed));
+    const Word one = Word{} + 1U;
+    return {reverse_bits(laine_karras(index, hash_combine(seed, one))),
+            reverse_bits(laine_karras(reversed_sobol_second(index), hash_combine(seed, one + 1U)))};
 }
 
 }  // namespace
 
 Vec2f Sampler::at2(std::uint32_t pair) const {
-    const std::uint32_t seed = hash_combine(pixel_, pair);
-    // Shuffle the order of samples within nested powers of two, then scramble each dimension.
-    const std::uint32_t index = reverse_bits(laine_karras(reverse_bits(index_), seed));
-    // The first dimension is the reversed index and scrambling wants reversed digits: the reversals cancel.
-    const std::uint32_t x = reverse_bits(laine_karras(index, hash_combine(seed, 1)));
-    const std::uint32_t y = reverse_bits(laine_karras(reverse_bits(sobol_second(index)), hash_combine(seed, 2)));
-    return {unit_float(x), unit_float(y)};
+    const Point<std::uint32_t> p = scrambled(hash_combine(pixel_, pair), reverse_bits(index_));
+    return {lightsieve::unit_float(p.x), lightsieve::unit_float(p.y)};
+}
+
+std::array<Vec2f, 4> Sampler::at2x4(std::uint32_t pair) const {
+    const Word4 zero{};
+    const Word4 seed = hash_combine(zero + pixel_, Word4{pair, pair + 1, pair + 2, pair + 3});
+    const Point<Word4> p = scrambled(seed, zero + reverse_bits(index_));
+    const Float4 x = unit_float(p.x), y = unit_float(p.y);
+    return {{{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}, {x[3], y[3]}}};
 }
 
 }  // namespace lightsieve
