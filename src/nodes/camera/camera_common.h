@@ -124,7 +124,7 @@ class PlacedCamera : public Camera {
   public:
     PlacedCamera(const CameraCommon& params, NodeContext& context);
     [[nodiscard]] Mat4f camera_from_world(float time) const override {
-        return world_from_camera_.at(time).inverse();
+        return world_from_camera_.moves() ? world_from_camera_.at(time).inverse() : camera_from_world_;
     }
     [[nodiscard]] float sample_time(float u) const override { return shutter_.sample(u); }
     [[nodiscard]] float shutter_start() const override { return clock_.start; }
@@ -147,6 +147,7 @@ class PlacedCamera : public Camera {
   private:
     ClockInterval motion_, clock_;
     Keyed<Mat4f> world_from_camera_;
+    Mat4f camera_from_world_;  ///< at shutter time 0
     Keyed<Vec2f> window_min_, window_max_;
     Shutter shutter_;
     float mirror_ = 1;       ///< -1 for left handedness

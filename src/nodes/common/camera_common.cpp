@@ -101,6 +101,7 @@ PlacedCamera::PlacedCamera(const CameraCommon& p, NodeContext& context)
     : motion_{p.motion_start, p.motion_end},
       clock_{p.shutter_start, p.shutter_end},
       world_from_camera_(placement(p, context), motion_, clock_),
+      camera_from_world_(world_from_camera_.at(0).inverse()),
       window_min_(keyed(p.screen_window_min, camera_defaults::kWindowMin)),
       window_max_(keyed(p.screen_window_max, camera_defaults::kWindowMax)),
       shutter_(make_shutter(p, context)),
