@@ -2,7 +2,7 @@
 
 namespace lightsieve {
 namespace {
-/// Pairs of dimensions before the path's own (Integrator::Dimensions::kFirst).
+/// Pairs of dimensions before the path's own (Integrator::kFirstPair).
 enum CameraPair : std::uint32_t { kFilterPair = 0, kLensPair = 1, kTimePair = 2 };
 }  // namespace
 

@@ -100,6 +100,8 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time, const M
         }
 
         // Direct light, value by lobe; then a direction from the mixture, and every share splits over the lobes.
+        const std::array<Vec2f, 4> points = sampler.at2x4(kFirstPair + segment_ * kPairsPerSegment);
+        points_ = {points[0], points[1], points[2], points[3]};
         choose_probabilities();
         if (n_channels_ > 0) add_light_samples(surface);
         if (!scatter(surface, ray)) return;
@@ -157,6 +159,14 @@ float Integrator<Tracker>::clamp_factor(Color total, int n_scatter) const {
     return n_scatter > 1 && largest > scene_.settings.indirect_clamp ? scene_.settings.indirect_clamp / largest : 1;
 }
 
+/// Notes a contribution that is not finite; it is left out.
+template <class Tracker>
+void Integrator<Tracker>::drop(std::uint32_t event) {
+    ++counts.dropped;
+    counts.dropped_event = event;
+    counts.dropped_depth = n_scatter_;
+}
+
 template <class Tracker>
 template <class Value>
 void Integrator<Tracker>::deposit(Terminal terminal, const Value& value) {
@@ -165,10 +175,7 @@ void Integrator<Tracker>::deposit(Terminal terminal, const Value& value) {
     for (std::size_t g = 0; g < groups.size(); ++g)
         total += groups[g].throughput * value(g);
     if (is_black(total)) return;
-    if (!is_finite(total)) {
-        ++counts.dropped;
-        return;
-    }
+    if (!is_finite(total)) return drop(terminal.event);
     const float scale = clamp_factor(total, n_scatter_);
     out_->beauty += total * scale;
     tracker_.add(terminal, value, scale);
@@ -183,10 +190,7 @@ void Integrator<Tracker>::deposit_scattered(Terminal terminal, const Value& valu
         for (std::size_t c = 0; c < n_channels_; ++c)
             total += groups[g].throughput * value(g, c);
     if (is_black(total)) return;
-    if (!is_finite(total)) {
-        ++counts.dropped;
-        return;
-    }
+    if (!is_finite(total)) return drop(terminal.event);
     const float scale = clamp_factor(total, n_scatter_ + 1);
     out_->beauty += total * scale;
     tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, value, scale);
@@ -338,7 +342,7 @@ void Integrator<Tracker>::gather_channels() {
 /// Albedo probes: what the path would carry under uniform white light. Never clamped, never part of the beauty.
 template <class Tracker>
 void Integrator<Tracker>::add_probes() {
-    std::array<Color, kMaxChannels> albedo{};
+    const std::span<Color> albedo = cleared_values();
     for (std::size_t i = 0; i < closures_.closures().size(); ++i)
         albedo[channel_of_[i]] += closures_.albedo(i);
     tracker_.add_scattered(std::span(channels_.data(), n_channels_), {scene_.probe, scene_.probe_event},
@@ -349,7 +353,7 @@ void Integrator<Tracker>::add_probes() {
 template <class Tracker>
 void Integrator<Tracker>::choose_probabilities() {
     // Throughput that may use each channel.
-    std::array<Color, kMaxChannels> reach{};
+    const std::span<Color> reach = cleared_values();
     for (std::size_t c = 0; c < n_channels_; ++c)
         for (const PathGroup& g : groups_.all())
             if (!g.key.lights_only && channel_allowed(g.key, channels_[c])) reach[c] += g.throughput;
@@ -387,15 +391,14 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
     const LightSampler* lights = surface.object->lights;
     if (lights->empty()) return;
     const Vec3f normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
-    const Dimensions at{Dimensions::kFirst + segment_ * Dimensions::kPerSegment};
-    const LightPick pick = lights->pick(surface.at.position, normal, sampler_->at2(at.choice()).y);
+    const LightPick pick = lights->pick(surface.at.position, normal, points_.choice.y);
     if (!(pick.probability > 0)) return;
     const SceneLight& light = scene_.lights[pick.light];
-    const LightSample sample = light.light->sample(surface.at.position, sampler_->at2(at.light()));
+    const LightSample sample = light.light->sample(surface.at.position, points_.light);
     if (!(sample.pdf > 0) || is_black(sample.radiance)) return;
-    std::array<Color, kMaxChannels> value{};
+    const std::span<Color> value = cleared_values();
     const float pdf_lobes = evaluate(surface, sample.wi, value);
-    if (std::all_of(value.begin(), value.begin() + static_cast<std::ptrdiff_t>(n_channels_), is_black)) return;
+    if (std::all_of(value.begin(), value.end(), is_black)) return;
 
     // Without a way to meet the light by a ray the light sample stands alone.
     const SceneObject& object = *surface.object;
@@ -493,8 +496,7 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -
 
 template <class Tracker>
 bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
-    const Dimensions at{Dimensions::kFirst + segment_ * Dimensions::kPerSegment};
-    float u = sampler_->at2(at.choice()).x;
+    float u = points_.choice.x;
 
     // Straight through: no event, no depth.
     if (u < pass_probability_) {
@@ -521,12 +523,12 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
         if (drawn == 0) return false;
         --drawn;
     }
-    const float u_choice = sampler_->at2(at.roulette()).y;
-    const LobeSample sample = closures_.sample(drawn, sampler_->at2(at.direction()), u_choice);
+    const float u_choice = points_.roulette.y;
+    const LobeSample sample = closures_.sample(drawn, points_.direction, u_choice);
     if (!(sample.pdf > 0)) return false;
 
     // What each channel carries into that direction, over the density of the mixture.
-    std::array<Color, kMaxChannels> factors{};
+    const std::span<Color> factors = cleared_values();
     const bool delta = closures_.delta(drawn);
     float pdf = 0;
     if (delta) {
@@ -540,7 +542,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     }
     for (std::size_t c = 0; c < n_channels_; ++c)
         if (!is_finite(factors[c])) {
-            ++counts.dropped;
+            drop(TraceCounts::kNoEvent);
             return false;
         }
 
@@ -553,7 +555,6 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
 
     // Every share splits over the channels.
     const std::span<const Channel> channels(channels_.data(), n_channels_);
-    const std::span<const Color> by_channel(factors.data(), n_channels_);
     PathGroups::Step step;
     const auto draw = [this](std::uint32_t stream) { return random(16 + stream); };
     std::span<const Channel> counted = channels;
@@ -562,8 +563,8 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     as_drawn.fill(channels_[channel_of_[drawn]]);
     if (active_fault() == Fault::DepthFromDrawnLobe) counted = std::span<const Channel>(as_drawn.data(), n_channels_);
 #endif
-    groups_.scatter(counted, by_channel, scene_.depth_rules, draw, step);
-    tracker_.scatter(channels, by_channel, step, draw);
+    groups_.scatter(counted, factors, scene_.depth_rules, draw, step);
+    tracker_.scatter(channels, factors, step, draw);
     ++n_scatter_;
     if (is_black(groups_.total())) return false;
     if (!survives_roulette()) return false;
@@ -583,8 +584,7 @@ bool Integrator<Tracker>::survives_roulette() {
     if (scene_.settings.roulette_depth < 0 || n_scatter_ <= scene_.settings.roulette_depth) return true;
     const float start = max_component(path_start_);
     const float q = std::clamp(max_component(groups_.total()) / start, kLeastSurvival, kMostSurvival);
-    const Dimensions at{Dimensions::kFirst + segment_ * Dimensions::kPerSegment};
-    if (sampler_->at2(at.roulette()).x >= q) return false;
+    if (points_.roulette.x >= q) return false;
     groups_.scale(Color::grey(1 / q));
     tracker_.scale(Color::grey(1 / q));
     return true;

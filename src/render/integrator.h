@@ -5,6 +5,7 @@
 // dimensions are fixed by the segment, so that a sample never depends on what other paths did.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,9 @@ namespace lightsieve {
 struct TraceCounts {
     std::uint64_t rays = 0;             ///< closest-hit and shadow rays
     std::uint64_t dropped = 0;          ///< contributions that were not finite
+    std::uint32_t dropped_event = kNoEvent;  ///< the last one's terminal, into Scene::events; kNoEvent: dropped while scattering
+    int dropped_depth = 0;              ///< scattering events before it
+    static constexpr std::uint32_t kNoEvent = UINT32_MAX;
     std::uint64_t dropped_closures = 0; ///< closures that did not fit into a ClosureSet
 };
 
@@ -52,14 +56,14 @@ class Integrator {
         Color straight;   ///< by opacity: rays that meet the light by chance see the same
         Color tinted;     ///< with what transmissive surfaces let through to diffuse light besides; never less than `straight`
     };
-    /// Numbers of the sampler's pairs of dimensions within a segment of the path.
-    struct Dimensions {
-        static constexpr std::uint32_t kFirst = 4, kPerSegment = 4;
-        std::uint32_t base;
-        [[nodiscard]] std::uint32_t choice() const { return base; }          ///< x: lobe, y: light
-        [[nodiscard]] std::uint32_t direction() const { return base + 1; }   ///< direction of the lobe
-        [[nodiscard]] std::uint32_t light() const { return base + 2; }       ///< point on the light
-        [[nodiscard]] std::uint32_t roulette() const { return base + 3; }    ///< x: roulette, y: choice within a lobe
+    /// The sampler's pairs of dimensions before the path's own, and of each segment of the path.
+    static constexpr std::uint32_t kFirstPair = 4, kPairsPerSegment = 4;
+    /// A segment's points.
+    struct SegmentPoints {
+        Vec2f choice;     ///< x: lobe, y: light
+        Vec2f direction;  ///< direction of the lobe
+        Vec2f light;      ///< point on the light
+        Vec2f roulette;   ///< x: roulette, y: choice within a lobe
     };
 
     // Steps of `trace`, in order.
@@ -81,6 +85,7 @@ class Integrator {
     bool survives_roulette();
 
     // Parts of them.
+    void drop(std::uint32_t event);
     template <class Value>
     void deposit(Terminal terminal, const Value& value);
     void add_met_light(std::uint32_t index, const LightEval& eval, Terminal terminal, const Ray& ray, float distance);
@@ -96,6 +101,11 @@ class Integrator {
     [[nodiscard]] float light_factor(const LightCommon& light, RayType type, int n_scatter) const;
     [[nodiscard]] float clamp_factor(Color total, int n_scatter) const;
     [[nodiscard]] float random(std::uint32_t stream) const { return sampler_->random(hash_combine(segment_, stream)); }
+    /// Black for each channel of the vertex. One array for all: whoever asks next overwrites it.
+    [[nodiscard]] std::span<Color> cleared_values() {
+        std::fill_n(values_.begin(), n_channels_, kBlack);
+        return {values_.data(), n_channels_};
+    }
     [[nodiscard]] bool wanted() const { return scene_.plan.wants_beauty || tracker_.live(); }
 
     const Scene& scene_;
@@ -109,6 +119,7 @@ class Integrator {
     Color passed_;                ///< what transparent surfaces let through on the camera ray
     Color path_start_;            ///< throughput at the camera, which roulette compares with
     std::uint32_t segment_ = 0;
+    SegmentPoints points_;        ///< of this segment
     int n_scatter_ = 0;           ///< scattering events so far
     int n_transparent_ = 0;       ///< transparent surfaces passed
     bool exit_pending_ = false;   ///< the ray just left a surface past a depth limit with exit_to_background
@@ -117,6 +128,7 @@ class Integrator {
     // Of the current vertex.
     std::array<Channel, kMaxChannels> channels_;
     std::size_t n_channels_ = 0;
+    std::array<Color, kMaxChannels> values_;                    ///< see cleared_values
     std::array<std::uint8_t, ClosureSet::kMaxClosures> channel_of_;
     std::array<float, ClosureSet::kMaxClosures> probability_;   ///< of drawing each closure
     float pass_probability_ = 0;                                ///< of going straight through

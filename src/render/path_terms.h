@@ -162,7 +162,7 @@ class PathGroups {
     /// random  gives uniform numbers, used only when there are too many groups
     template <class Random>
     void scatter(std::span<const Channel> channels, std::span<const Color> factors, const DepthRules& rules, const Random& random, Step& step) {
-        std::array<PathGroup, kMaxCandidates> candidates;
+        std::array<PathGroup, kMaxCandidates>& candidates = candidates_;
         std::size_t n = 0;
         for (std::size_t g = 0; g < n_; ++g)
             for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -233,6 +233,7 @@ class PathGroups {
 
     std::array<PathGroup, kMaxGroups> groups_;
     std::size_t n_ = 0;
+    std::array<PathGroup, kMaxCandidates> candidates_;  ///< of `scatter`; kept, because clearing it costs more than using it
 };
 
 /// The terms of a path in one automaton (or in the path log's tree of histories).

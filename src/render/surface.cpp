@@ -26,14 +26,16 @@ Vec3f key_value(const std::vector<std::vector<Vec3f>>& keys, const KeyBlend& k, 
 
 /// Placement of an object at a time: matrix and inverse.
 struct Placement {
-    Mat4f world_from_object, object_from_world;
+    const Mat4f &world_from_object, &object_from_world;
 };
 
-Placement placement_at(const SceneObject& object, float time) {
-    if (object.world_from_object.size() == 1) return {object.world_from_object[0], object.object_from_world[0]};
+/// Calls `body` with the object's placement; matrices of things at rest are not copied.
+template <class Body>
+auto with_placement(const SceneObject& object, float time, const Body& body) {
+    if (object.world_from_object.size() == 1) return body(Placement{object.world_from_object[0], object.object_from_world[0]});
     const KeyBlend k = blend_at(object.world_from_object.size(), time);
-    const Mat4f m = lerp(object.world_from_object[k.first], object.world_from_object[k.second], k.f);
-    return {m, m.inverse()};
+    const Mat4f m = lerp(object.world_from_object[k.first], object.world_from_object[k.second], k.f), inverse = m.inverse();
+    return body(Placement{m, inverse});
 }
 
 /// What a primitive says about a point, object space.
@@ -119,10 +121,7 @@ LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const View& vie
     return out;
 }
 
-}  // namespace
-
-Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit, const Footprint& footprint) {
-    const Placement place = placement_at(object, ray.time);
+Surface surface_at(const Placement& place, const SceneObject& object, const Ray& ray, const RayHit& hit, const Footprint& footprint) {
     const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time};
     const LocalPoint local = std::visit([&](const auto& g) { return resolve(g, hit, view); }, object.geometry->data);
     Surface out;
@@ -145,9 +144,11 @@ Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hi
     at.tangent = out.frame.x;
     at.uv = local.uv;
     at.barycentric = hit.barycentric;
-    const float cosine = std::max(0.1F, std::abs(dot(geometric, wo)));
-    const float scale = length(local.dp_du) > 0 ? length(tangent) / length(local.dp_du) : 1;
-    at.uv_width = local.uv_per_unit * (footprint.width + footprint.spread * hit.t) / (cosine * std::max(scale, 1e-20F));
+    if (local.uv_per_unit > 0) {
+        const float cosine = std::max(0.1F, std::abs(dot(geometric, wo)));
+        const float scale = length(local.dp_du) > 0 ? length(tangent) / length(local.dp_du) : 1;
+        at.uv_width = local.uv_per_unit * (footprint.width + footprint.spread * hit.t) / (cosine * std::max(scale, 1e-20F));
+    }
     at.face = local.face;
     at.shape_id = object.id;
     at.time = ray.time;
@@ -156,12 +157,21 @@ Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hi
     return out;
 }
 
-LightHit make_light_hit(const SceneObject& object, const Ray& ray, const RayHit& hit) {
-    const Placement place = placement_at(object, ray.time);
+LightHit light_hit_at(const Placement& place, const SceneObject& object, const Ray& ray, const RayHit& hit) {
     const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time};
     const LocalPoint local = std::visit([&](const auto& g) { return resolve(g, hit, view); }, object.geometry->data);
     const Vec3f normal = normalize(place.object_from_world.normal_by_inverse(local.geometric_normal));
     return {place.world_from_object.point(local.position), normal, local.uv, hit.primitive, hit.t};
+}
+
+}  // namespace
+
+Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit, const Footprint& footprint) {
+    return with_placement(object, ray.time, [&](const Placement& place) { return surface_at(place, object, ray, hit, footprint); });
+}
+
+LightHit make_light_hit(const SceneObject& object, const Ray& ray, const RayHit& hit) {
+    return with_placement(object, ray.time, [&](const Placement& place) { return light_hit_at(place, object, ray, hit); });
 }
 
 }  // namespace lightsieve
