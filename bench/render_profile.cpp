@@ -5,6 +5,7 @@
 // "builtins" asks for every built-in AOV in every light group beside the beauty. No Russian roulette, no files.
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <string_view>
 
@@ -37,8 +38,10 @@ int profile(int argc, char** argv) {
     const ScenePtr scene = compile_scene(graph, options, diagnostics);
     std::fputs(diagnostics.render().c_str(), stderr);
     if (!scene) return 1;
+    const std::clock_t start = std::clock();
     const RenderResult result = render_scene(*scene, {}, diagnostics);
-    std::printf("%.3f s, %.0f samples, %.2f rays a sample, %.3f million rays/s\n", result.seconds,
+    const double processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    std::printf("%.3f s, %.3f s of processors, %.0f samples, %.2f rays a sample, %.3f million rays/s\n", result.seconds, processor,
                 static_cast<double>(result.samples),
                 static_cast<double>(result.rays) / static_cast<double>(result.samples),
                 static_cast<double>(result.rays) / result.seconds * 1e-6);

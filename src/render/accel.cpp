@@ -2,8 +2,11 @@
 
 #include <embree3/rtcore.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 
 #include "core/error.h"
 
@@ -39,6 +42,16 @@ Vec3f position_at(const std::vector<std::vector<Vec3f>>& keys, std::size_t i, fl
     const std::size_t k = std::min(static_cast<std::size_t>(x), keys.size() - 2);
     const float f = x - static_cast<float>(k);
     return keys[k][i] * (1 - f) + keys[k + 1][i] * f;
+}
+
+/// How much a transform scales if it keeps the shape of things; 0 if it stretches or shears.
+float even_scale(const Mat4f& m) {
+    constexpr float kTolerance = 1e-5F;
+    const Vec3f x = m.vector({1, 0, 0}), y = m.vector({0, 1, 0}), z = m.vector({0, 0, 1});
+    const float squared = length_squared(x), most = kTolerance * squared;
+    const bool even = std::abs(length_squared(y) - squared) <= most && std::abs(length_squared(z) - squared) <= most &&
+                      std::abs(dot(x, y)) <= most && std::abs(dot(y, z)) <= most && std::abs(dot(z, x)) <= most;
+    return even ? std::sqrt(squared) : 0;
 }
 
 constexpr std::size_t kMaxKeys = RTC_MAX_TIME_STEP_COUNT;
@@ -78,8 +91,8 @@ class GeometryMaker {
             auto* out = static_cast<float*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(k), RTC_FORMAT_FLOAT4, 4 * sizeof(float), n));
             if (out == nullptr) fail(device_, "storing spheres");
             for (std::size_t i = 0; i < n; ++i) {
-                const Vec3f c = spheres.centers[k][i];
-                const std::array<float, 4> v{c.x, c.y, c.z, spheres.radii[i]};
+                const Vec3f c = placement_[0].point(spheres.centers[k][i]);
+                const std::array<float, 4> v{c.x, c.y, c.z, spheres.radii[i] * even_scale(placement_[0])};
                 std::memcpy(out + 4 * i, v.data(), sizeof(v));
             }
         }
@@ -91,8 +104,90 @@ class GeometryMaker {
     std::span<const Mat4f> placement_;
 };
 
-/// Spheres stay in object space: a transform may squash them.
-bool must_instance(const AccelObject& object) { return std::holds_alternative<SphereList>(object.geometry->data); }
+/// Spheres that a transform moves or squashes stay in object space.
+bool must_instance(const AccelObject& object) {
+    return std::holds_alternative<SphereList>(object.geometry->data) && (object.world_from_object.size() > 1 || even_scale(object.world_from_object[0]) == 0);
+}
+
+/// Bounds of a placed geometry over the whole shutter.
+Box3f bounds_of(const AccelObject& object) {
+    Box3f out;
+    const auto grow = [&](Vec3f p, float radius) {
+        for (const Mat4f& m : object.world_from_object) {
+            // Half the edges of the box of a transformed ball.
+            const auto reach = [&](int i) { return radius * length(Vec3f{m.vector({1, 0, 0})[i], m.vector({0, 1, 0})[i], m.vector({0, 0, 1})[i]}); };
+            const Vec3f center = m.point(p), half{reach(0), reach(1), reach(2)};
+            out.grow(center - half);
+            out.grow(center + half);
+        }
+    };
+    if (const auto* mesh = std::get_if<TriangleMesh>(&object.geometry->data))
+        for (const std::vector<Vec3f>& key : mesh->positions)
+            for (const Vec3f p : key)
+                grow(p, 0);
+    if (const auto* spheres = std::get_if<SphereList>(&object.geometry->data))
+        for (const std::vector<Vec3f>& key : spheres->centers)
+            for (std::size_t i = 0; i < key.size(); ++i)
+                grow(key[i], spheres->radii[i]);
+    return out;
+}
+
+/// Up to 16 boxes around neighbours in a list of objects, four side by side.
+class Boxes {
+  public:
+    explicit Boxes(std::span<const AccelObject> objects) {
+        const std::size_t per_box = (objects.size() + kMost - 1) / kMost;
+        for (std::size_t i = 0; i < objects.size(); i += per_box) {
+            Box3f box;
+            for (std::size_t k = i; k < std::min(i + per_box, objects.size()); ++k)
+                box.grow(bounds_of(objects[k]));
+            add(box);
+        }
+    }
+
+    /// False only if the ray certainly meets none of the boxes.
+    [[nodiscard]] bool may_meet(const Ray& ray) const noexcept {
+        const Vec3f inverse{1 / ray.direction.x, 1 / ray.direction.y, 1 / ray.direction.z};
+        for (const Four& f : fours_) {
+            Float4 near = all(ray.t_min), far = all(ray.t_max);
+            for (int axis = 0; axis < 3; ++axis) {
+                const Float4 a = (f.lower[axis] - ray.origin[axis]) * inverse[axis], b = (f.upper[axis] - ray.origin[axis]) * inverse[axis];
+                // Rays within a wall give nan: they pass beside what is in the box, which has room on all sides.
+                const Float4 first = a < b ? a : b, last = a < b ? b : a;
+                near = first > near ? first : near;
+                far = last < far ? last : far;
+            }
+            const auto met = near <= far;
+            if ((met[0] | met[1] | met[2] | met[3]) != 0) return true;
+        }
+        return false;
+    }
+
+  private:
+    static constexpr std::size_t kMost = 16;
+    using Float4 = float __attribute__((vector_size(16)));
+    /// Four boxes; missing ones repeat the others.
+    struct Four {
+        Float4 lower[3], upper[3];
+    };
+    static Float4 all(float v) { return Float4{v, v, v, v}; }
+
+    void add(const Box3f& box) {
+        constexpr float kRoom = 1e-4F;  // flat boxes get a thickness, and rounding room
+        const std::size_t first = n_++ % 4;
+        if (first == 0) fours_.emplace_back();
+        const float room = kRoom * (length(box.size()) + max_abs(box.lower) + max_abs(box.upper));
+        for (std::size_t lane = first; lane < 4; ++lane)
+            for (int axis = 0; axis < 3; ++axis) {
+                fours_.back().lower[axis][lane] = box.lower[axis] - room;
+                fours_.back().upper[axis][lane] = box.upper[axis] + room;
+            }
+    }
+    static float max_abs(Vec3f v) { return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z))); }
+
+    std::vector<Four> fours_;
+    std::size_t n_ = 0;
+};
 
 RTCRay to_embree(const Ray& ray, std::uint32_t mask) {
     RTCRay out;
@@ -121,6 +216,7 @@ struct Accel::State {
     ScenePtr top;
     std::vector<std::uint32_t> object_of;             ///< by id of a top-level geometry
     std::vector<bool> is_instance;                    ///< by id of a top-level geometry
+    std::optional<Boxes> boxes;                       ///< around objects that most rays miss
     bool empty = true;
 
     ScenePtr new_scene() const {
@@ -174,8 +270,9 @@ struct Accel::State {
     }
 };
 
-Accel::Accel(std::span<const AccelObject> objects, const std::string& isa) : state_(std::make_unique<State>()) {
+Accel::Accel(std::span<const AccelObject> objects, const std::string& isa, bool sparse) : state_(std::make_unique<State>()) {
     State& s = *state_;
+    if (sparse) s.boxes.emplace(objects);
     // Flush-to-zero is set by our own threads (core/parallel).
     const std::string config = isa.empty() ? std::string() : "isa=" + isa;
     s.device.reset(rtcNewDevice(config.empty() ? nullptr : config.c_str()));
@@ -202,6 +299,7 @@ Accel::Accel(std::span<const AccelObject> objects, const std::string& isa) : sta
 Accel::~Accel() = default;
 
 bool Accel::intersect(const Ray& ray, std::uint32_t mask, RayHit& hit) const noexcept {
+    if (state_->boxes && !state_->boxes->may_meet(ray)) return false;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit r;

@@ -28,8 +28,9 @@ class Accel {
   public:
     /// objects  RayHit::object is an index into this list
     /// isa      "", "sse2", "avx2" or "avx512": pins Embree's kernels, for equal bits on unlike machines
+    /// sparse   most rays are expected to meet nothing (lights): a few boxes are looked at first
     /// Throws InputError (limit-memory) if the structure does not fit into memory.
-    Accel(std::span<const AccelObject> objects, const std::string& isa);
+    Accel(std::span<const AccelObject> objects, const std::string& isa, bool sparse = false);
     ~Accel();
     Accel(const Accel&) = delete;
     Accel& operator=(const Accel&) = delete;

@@ -46,7 +46,13 @@ ScenePtr Compiler::run() {
     fill_records();
     find_mask_types();
     finish_depth_rules();
-    make_accels();
+    try {
+        make_accels();
+    } catch (const InputError& e) {
+        for (const Error& error : e.errors())
+            diagnostics_.add(error);
+        return nullptr;
+    }
     summarize_scene();
     return std::move(scene_);
 }
@@ -98,6 +104,9 @@ void Compiler::read_settings() {
     s.indirect_clamp = option("indirect_sample_clamp", 10.0F);
     s.low_light_threshold = option("low_light_threshold", 0.001F);
     s.roulette_depth = options_.roulette_depth;
+    constexpr std::array<std::string_view, 4> kInstructionSets{"", "sse2", "avx2", "avx512"};
+    if (std::find(kInstructionSets.begin(), kInstructionSets.end(), options_.isa) == kInstructionSets.end())
+        diagnostics_.error(Code::LimitMemory, "no instruction set is called \"" + options_.isa + '"', {}, "sse2, avx2 and avx512 are known");
     scene_->capture = options_.capture;
     scene_->write_files = options_.write_files;
     scene_->background_visibility = option<std::uint8_t>("background_visibility", 255);

@@ -39,7 +39,7 @@ void Compiler::make_accels() {
     std::vector<AccelObject> lights;
     for (const SceneObject& object : scene_->light_objects)
         lights.push_back({object.geometry, object.world_from_object, 0xffffffffU});
-    scene_->light_accel = std::make_unique<Accel>(lights, options_.isa);
+    scene_->light_accel = std::make_unique<Accel>(lights, options_.isa, true);
 }
 
 }  // namespace lightsieve

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/version.h"
+#include "lpe/path.h"
 #include "render/camera_sample.h"
 #include "render/integrator.h"
 
@@ -29,6 +30,16 @@ std::vector<BucketRect> buckets_of(const RenderSettings& s) {
     return out;
 }
 
+/// A camera sample that brought something infinite or not a number.
+struct DroppedSample {
+    int y, x, index;
+    int depth;
+    std::uint32_t event;
+    friend auto operator<=>(const DroppedSample&, const DroppedSample&) = default;
+};
+/// As many are described, for somebody who wants to trace them again.
+constexpr std::size_t kDescribedDrops = 10;
+
 /// What one thread needs; made once, used for many buckets.
 struct Worker {
     explicit Worker(const Scene& scene) : integrator(scene), film(scene.plan) {}
@@ -37,6 +48,7 @@ struct Worker {
     SampleBuffer sample;
     std::vector<float> weights;
     std::vector<std::vector<float>> layers;  ///< by layer of the plan
+    std::vector<DroppedSample> dropped;      ///< the first few
 };
 
 class Renderer {
@@ -51,9 +63,11 @@ class Renderer {
     void open_drivers();
     void render_bucket(Worker& worker, const BucketRect& rect);
     bool render_pass(Worker& worker, const Pass& pass, const BucketRect& rect);
+    static void note_dropped(Worker& worker, int x, int y, int index);
     void deliver(const Worker& worker, const BucketRect& rect);
     void close_drivers();
     void report();
+    void report_dropped();
     [[nodiscard]] bool stopped() const { return control_.stop != nullptr && control_.stop->load(std::memory_order_relaxed); }
     Worker& worker();
 
@@ -162,13 +176,20 @@ bool Renderer::render_pass(Worker& worker, const Pass& pass, const BucketRect& r
         for (int x = 0; x < rect.width; ++x) {
             if (stopped()) return false;
             for (int i = 0; i < scene_.settings.samples; ++i) {
+                const std::uint64_t dropped_before = worker.integrator.counts.dropped;
                 const CameraSample sample = camera.sample(rect.x + x, rect.y + y, static_cast<std::uint32_t>(i));
                 worker.integrator.trace(sample.ray, sample.time, sample.camera_from_world, sample.sampler, worker.sample);
+                if (worker.integrator.counts.dropped != dropped_before) note_dropped(worker, rect.x + x, rect.y + y, i);
                 camera.weights(sample, worker.weights);
                 worker.film.add(x, y, worker.sample, sample_clamp_factor(scene_, worker.sample.beauty), sample.offset, worker.weights);
             }
         }
     return true;
+}
+
+void Renderer::note_dropped(Worker& worker, int x, int y, int index) {
+    const TraceCounts& counts = worker.integrator.counts;
+    if (worker.dropped.size() < kDescribedDrops) worker.dropped.push_back({y, x, index, counts.dropped_depth, counts.dropped_event});
 }
 
 /// Hands a finished bucket to drivers and memory, one bucket at a time.
@@ -203,6 +224,20 @@ void Renderer::close_drivers() {
     result_.output_seconds += seconds_since(start);
 }
 
+void Renderer::report_dropped() {
+    std::vector<DroppedSample> all;
+    for (const auto& w : idle_)
+        all.insert(all.end(), w->dropped.begin(), w->dropped.end());
+    std::sort(all.begin(), all.end());
+    if (all.size() > kDescribedDrops) all.resize(kDescribedDrops);
+    Error warning{Code::RenderNonFinite, std::to_string(result_.dropped_samples) + " contributions were infinite or not a number and were left out", {}, "look for lights, textures or parameters of extreme size", {}, Severity::Warning};
+    for (const DroppedSample& d : all) {
+        std::string what = d.event == TraceCounts::kNoEvent ? "while scattering" : "arriving as " + lpe::print_event(scene_.events[d.event]);
+        warning.notes.push_back({"pixel " + std::to_string(d.x) + "," + std::to_string(d.y) + " sample " + std::to_string(d.index) + ": " + what + " after " + std::to_string(d.depth) + " scattering events", {}});
+    }
+    diagnostics_.add(std::move(warning));
+}
+
 void Renderer::report() {
     std::uint64_t dropped_closures = 0;
     for (const auto& w : idle_) {
@@ -210,8 +245,7 @@ void Renderer::report() {
         result_.dropped_samples += w->integrator.counts.dropped;
         dropped_closures += w->integrator.counts.dropped_closures;
     }
-    if (result_.dropped_samples > 0)
-        diagnostics_.warning(Code::RenderNonFinite, std::to_string(result_.dropped_samples) + " contributions were infinite or not a number and were left out", {}, "look for lights, textures or parameters of extreme size");
+    if (result_.dropped_samples > 0) report_dropped();
     if (dropped_closures > 0)
         diagnostics_.warning(Code::RenderNonFinite, std::to_string(dropped_closures) + " lobes did not fit at one hit and were left out", {}, "materials of more than " + std::to_string(ClosureSet::kMaxClosures) + " lobes are not possible");
     scene_.textures->report_failures(diagnostics_);

@@ -49,3 +49,21 @@ def test_noise_is_no_scene(tmp_path: Path) -> None:
     scene = tmp_path / "noise.ass"
     scene.write_bytes(np.random.default_rng(1).integers(0, 256, 100_000, np.uint8).tobytes())
     assert len(codes(scene)) >= 1
+
+
+def test_an_instruction_set_that_does_not_exist() -> None:
+    assert codes(ROOT / "tests/scenes/still.ass", isa="avx9") == ["limit-memory"]
+
+
+def test_light_that_is_infinite_is_left_out_and_described(tmp_path: Path) -> None:
+    scene = tmp_path / "infinite.ass"
+    scene.write_text(
+        'options { xres 8 yres 8 camera "c" outputs "RGBA RGBA f d" }\n'
+        "persp_camera { name c exposure 10 }\nbox_filter { name f }\n"
+        'driver_exr { name d filename "x.exr" }\nflat { name bright color 3e38 3e38 3e38 }\n'
+        'sphere { name s center 0 0 -3 radius 0.3 shader "bright" }\n'
+    )
+    frame = lightsieve.render(scene)
+    assert np.isfinite(frame.layer("RGBA")).all()
+    (warning,) = [item for item in frame.diagnostics if item.code == "render-non-finite"]
+    assert "arriving as O after 0 scattering events" in warning.rendered
