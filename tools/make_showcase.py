@@ -412,7 +412,12 @@ reflections
 def outputs() -> str:
     strings = ["RGBA RGBA filter exr"]
     strings += [f"{name} RGB filter exr" for name in LIGHT_AOVS.split()]
-    strings += ["Z FLOAT closest exr", "N VECTOR closest exr", "P VECTOR closest exr", "ID UINT closest exr"]
+    strings += [
+        "Z FLOAT closest exr",
+        "N VECTOR closest exr",
+        "P VECTOR closest exr",
+        "ID UINT closest exr",
+    ]
     lines = "\n".join(f'  "{s}"' for s in strings)
     return f""" light_path_expressions "reflections C<RS>+[LOB]"
  outputs {len(strings)} 1 STRING

@@ -43,7 +43,8 @@ def tracked_text_files(root: Path) -> list[Path]:
 
 def test_cpp_is_formatted(root: Path) -> None:
     done = run(root / "tools/format", "--check", "--cpp", cwd=root)
-    assert done.returncode == 0, done.stdout + done.stderr
+    files = sorted(set(re.findall(r"^(\S+?):\d+:", done.stdout + done.stderr, re.MULTILINE)))
+    assert done.returncode == 0, f"run `make format`: {' '.join(files)}"
 
 
 def test_python_is_formatted_and_lint_free(root: Path) -> None:
