@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-
 from scenes.ass_text import node, options
 
 SIZE = 10.0  # edge of the ground [scene units]
