@@ -2,39 +2,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lightsieve {
 namespace {
 
-double determinant(Color a, Color b, Color c) {
-    return double{a.r} * (double{b.g} * c.b - double{b.b} * c.g) - double{a.g} * (double{b.r} * c.b - double{b.b} * c.r) + double{a.b} * (double{b.r} * c.g - double{b.g} * c.r);
-}
+/// Three equations in four unknowns: rows are channels, columns the four colours. In double, because the sum must hold for
+/// floats to their last bits.
+using Equations = std::array<std::array<double, 4>, 3>;
 
-/// v with sum v_i y_i = 0, not all 0, for vectors whose largest channel is 1.
+/// v with sum v_i y_i = 0, not all 0, for colours y whose largest channel is 1.
 ///
-/// By Cramer's rule where the four span space; from three of them where they lie in a plane; from two where all are parallel.
-std::array<double, 4> null_vector(const std::array<Color, 4>& y) {
-    // Below this a determinant of unit-sized vectors is rounding noise.
-    constexpr double kFlat = 1e-5;
-    const std::array<double, 4> v{determinant(y[1], y[2], y[3]), -determinant(y[0], y[2], y[3]), determinant(y[0], y[1], y[3]), -determinant(y[0], y[1], y[2])};
-    for (double entry : v)
-        if (std::abs(entry) > kFlat) return v;
-    for (std::size_t drop = 0; drop < 4; ++drop) {
-        std::array<std::size_t, 3> at{};
-        for (std::size_t i = 0, n = 0; i < 4; ++i)
-            if (i != drop) at[n++] = i;
-        for (int axis = 0; axis < 3; ++axis) {
-            const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-            const auto minor = [&](std::size_t p, std::size_t q) { return double{y[p][b]} * y[q][c] - double{y[p][c]} * y[q][b]; };
-            const std::array<double, 3> w{minor(at[1], at[2]), -minor(at[0], at[2]), minor(at[0], at[1])};
-            if (std::max({std::abs(w[0]), std::abs(w[1]), std::abs(w[2])}) <= kFlat) continue;
-            std::array<double, 4> out{};
-            for (std::size_t i = 0; i < 3; ++i)
-                out[at[i]] = w[i];
-            return out;
+/// Elimination with complete pivoting, which is exact to rounding however nearly the colours lie in a plane or a line, and
+/// keeps v small. Source: Golub and Van Loan, "Matrix Computations", 4th ed., section 3.4.
+std::array<double, 4> null_vector(Equations a) {
+    constexpr double kNothing = 1e-14;  // what remains of an entry of size 1 that cancels
+    std::array<std::size_t, 4> column{0, 1, 2, 3};
+    std::size_t rank = 0;
+    for (; rank < 3; ++rank) {
+        // Bring the largest entry that is left to the diagonal.
+        std::size_t row = rank, col = rank;
+        for (std::size_t i = rank; i < 3; ++i)
+            for (std::size_t j = rank; j < 4; ++j)
+                if (std::abs(a[i][j]) > std::abs(a[row][col])) row = i, col = j;
+        if (std::abs(a[row][col]) <= kNothing) break;
+        std::swap(a[rank], a[row]);
+        std::swap(column[rank], column[col]);
+        for (auto& r : a)
+            std::swap(r[rank], r[col]);
+        for (std::size_t i = rank + 1; i < 3; ++i) {
+            const double factor = a[i][rank] / a[rank][rank];
+            for (std::size_t j = rank; j < 4; ++j)
+                a[i][j] -= factor * a[rank][j];
         }
     }
-    return {1, -1, 0, 0};
+    // One unknown is free; the pivots' follow from the last to the first, the rest stays 0.
+    std::array<double, 4> v{};
+    v[column[rank]] = 1;
+    for (std::size_t i = rank; i-- > 0;) {
+        double sum = 0;
+        for (std::size_t j = i + 1; j <= rank; ++j)
+            sum += a[i][j] * v[column[j]];
+        v[column[i]] = -sum / a[i][i];
+    }
+    return v;
 }
 
 }  // namespace
@@ -43,9 +54,10 @@ std::size_t drop_one_of_four(std::array<Color, 4>& x, float u) {
     for (std::size_t i = 0; i < 4; ++i)
         if (is_black(x[i])) return i;
     // Found for vectors of size 1, so that faint entries count as much as bright ones.
-    std::array<Color, 4> unit;
+    Equations unit;
     for (std::size_t i = 0; i < 4; ++i)
-        unit[i] = x[i] * (1 / max_component(x[i]));
+        for (int c = 0; c < 3; ++c)
+            unit[static_cast<std::size_t>(c)][i] = double{x[i][c]} / double{max_component(x[i])};
     std::array<double, 4> v = null_vector(unit);
     for (std::size_t i = 0; i < 4; ++i)
         v[i] /= double{max_component(x[i])};
