@@ -11,6 +11,8 @@ TEST(LobeTruth, UnderADome) { EXPECT_TRUE(check_lobes_under_a_dome()); }
 TEST(LobeTruth, OnBothSides) { EXPECT_TRUE(check_lobes_on_both_sides()); }
 TEST(LobeTruth, ThroughOneBounce) { EXPECT_TRUE(check_lobes_through_one_bounce()); }
 TEST(LobeTruth, DepthLimitsByLobe) { EXPECT_TRUE(check_depth_limits_by_lobe()); }
+TEST(LobeTruth, MasksByLobe) { EXPECT_TRUE(check_masks_by_lobe()); }
+TEST(LobeTruth, MultipliersByLobe) { EXPECT_TRUE(check_multipliers_by_lobe()); }
 TEST(LobeTruth, SingleLobes) { EXPECT_TRUE(check_single_lobes()); }
 TEST(LobeTruth, DirectLightIsDirect) { EXPECT_TRUE(check_direct_light_is_direct()); }
 

@@ -1,16 +1,17 @@
 // What becomes of an output string: cameras, filters, regions, types, and the layers that are no light.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
-#include <set>
+#include <stdexcept>
 
 #include "render/testing/checks.h"
 
 namespace lightsieve::testing {
 namespace {
 
-std::string outputs(std::initializer_list<const char*> strings) {
+std::string outputs(const std::vector<const char*>& strings) {
     std::string out = " outputs " + std::to_string(strings.size()) + " 1 STRING";
     for (const char* s : strings)
         out += std::string(" \"") + s + '"';
@@ -172,6 +173,52 @@ TEST(Outputs, TransparentSurfacesAreNotTheFirstHit) {
     EXPECT_TRUE(check_constant(picture, "Z", Color::grey(3), 1e-5));
     EXPECT_TRUE(check_constant(picture, "RGBA", {1, 0, 0}, 1e-6));
     EXPECT_EQ(picture.mean_alpha("RGBA"), 1);
+}
+
+// Mistakes ---------------------------------------------------------------------------------------------------------------
+
+/// The errors of a scene with these outputs.
+std::string errors_of(const std::string& options) {
+    try {
+        const TestScene scene(frame_text(2, 2, 1, ortho_camera({0, 2, 0}, {0, 0, 0}, 1, {0, 0, -1}), options) + node("driver_png", "png", " filename \"a.png\"") + kRed + floor("plane", 0, 5, "red"));
+        return "";
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+}
+
+TEST(Mistakes, InOutputsAreErrorsBeforeTheFirstRay) {
+    struct Row {
+        std::vector<const char*> outputs;
+        const char* says;
+    };
+    const std::array<Row, 10> rows{Row{{"RGBA RGBA f"}, "too few words"},
+                                   {{"RGBA COLOUR f d"}, "names no type"},
+                                   {{"RGBA RGBA nofilter d"}, "no filter is called \"nofilter\""},
+                                   {{"RGBA RGBA f nodriver"}, "no driver is called \"nodriver\""},
+                                   {{"nocam RGBA RGBA f d name"}, "no camera is called \"nocam\""},
+                                   {{"difuse RGB f d"}, "diffuse"},
+                                   {{"RGBA RGBA f d", "RGBA RGBA f d"}, "a layer \"RGBA\""},
+                                   {{"Z RGB f d"}, "cannot be of type RGB"},
+                                   {{"diffuse VECTOR f d"}, "cannot be of type VECTOR"},
+                                   {{"RGBA RGBA f png", "diffuse RGB f png"}, "holds one layer"}};
+    for (const Row& row : rows) {
+        const std::string errors = errors_of(outputs(row.outputs));
+        EXPECT_NE(errors.find(row.says), std::string::npos) << row.says << " is missing in:\n" << errors;
+    }
+}
+
+TEST(Mistakes, AreAllReportedAtOnce) {
+    const std::string errors = errors_of(outputs({"RGBA RGBA f d", "difuse RGB f d", "emission RGB nofilter d"}) + " light_path_expressions 2 1 STRING \"a C<RD\" \"b C<RX>L\"");
+    for (const char* says : {"difuse", "nofilter", "C<RD", "C<RX>L"})
+        EXPECT_NE(errors.find(says), std::string::npos) << says << " is missing in:\n" << errors;
+}
+
+TEST(Mistakes, InExpressionsMayBeForgiven) {
+    const Picture picture = render(frame_text(2, 2, 1, ortho_camera({0, 2, 0}, {0, 0, 0}, 1, {0, 0, -1}), outputs({"RGBA RGBA f d", "wrong RGB f d", "emission RGB f d"}) + " abort_on_error off\n light_path_expressions \"wrong C<RD\"") + kRed +
+                                   floor("plane", 0, 5, "red"));
+    EXPECT_TRUE(check_black(picture, "wrong"));
+    EXPECT_TRUE(check_constant(picture, "emission", {1, 0, 0}, 1e-6));
 }
 
 // Regions ----------------------------------------------------------------------------------------------------------------

@@ -110,9 +110,9 @@ namespace {
 const Vec3f kWallCorner{-2, 1.5F, -2}, kWallU{3, 0, 0}, kWallV{0, 0, 4};
 constexpr float kWallAlbedo = 0.6F, kSunCosine = 0.8F;
 
-std::string bounce_scene(const std::string& options) {
+std::string bounce_scene(const std::string& options, const std::string& wall = "") {
     return frame_text(20, 20, 7, point_camera(), options) + layered_shader() + floor("plane", 0, 0.2F, "layered") + node("lambert", "wall_shader", " Kd 0.6") +
-           quad("wall", kWallCorner, kWallCorner + kWallU, kWallCorner + kWallU + kWallV, kWallCorner + kWallV, "wall_shader") + node("distant_light", "sun", " direction 0.6 0.8 0\n color 3 2 1\n cast_shadows off");
+           quad("wall", kWallCorner, kWallCorner + kWallU, kWallCorner + kWallU + kWallV, kWallCorner + kWallV, "wall_shader", wall) + node("distant_light", "sun", " direction 0.6 0.8 0\n color 3 2 1\n cast_shadows off");
 }
 
 LobeSums bounce_truth(const TestScene& scene) { return integrate_over_quad(scene.scene(), seen("plane"), kWallCorner, kWallU, kWallV, 300); }
@@ -147,6 +147,31 @@ Verdict check_depth_limits_by_lobe() {
             if (aov != "sheen") whole += truth.at(aov) * kWallRadiance;
         all << check_mean(picture, "RGBA", whole, kGridError);
     }
+    return all.verdict();
+}
+
+Verdict check_masks_by_lobe() {
+    All all;
+    // Everything but diffuse_reflect (32), everything but specular_reflect (64).
+    for (const int mask : {255 - 32, 255 - 64}) {
+        const TestScene scene(bounce_scene(" GI_diffuse_depth 1\n GI_specular_depth 1\n GI_total_depth 1", " visibility " + std::to_string(mask)), in_memory(with_suffix(kReflecting, "_indirect")));
+        const Picture picture = render(scene);
+        const bool diffuse = mask == 255 - 64;
+        all << compare(picture, bounce_truth(scene), diffuse ? std::vector<std::string>{"diffuse"} : std::vector<std::string>{"specular", "coat", "sheen"}, "_indirect", kWallRadiance);
+        for (const std::string& aov : diffuse ? std::vector<std::string>{"specular", "coat", "sheen"} : std::vector<std::string>{"diffuse"})
+            all << check_black(picture, aov + "_indirect");
+    }
+    return all.verdict();
+}
+
+Verdict check_multipliers_by_lobe() {
+    const Vec3f corner{-1.6F, 1.2F, -1.2F}, u{1.2F, 0, 0}, v{0, 0, 1.4F};
+    const std::string light = node("quad_light", "key", " normalize off\n diffuse 0.25\n specular 0.75\n vertices 4 1 VECTOR " + text_of(corner) + "  " + text_of(corner + u) + "  " + text_of(corner + u + v) + "  " + text_of(corner + v));
+    const TestScene scene(frame_text(20, 20, 7, point_camera()) + layered_shader() + floor("plane", 0, 1, "layered") + light, in_memory(with_suffix(kReflecting, "_direct")));
+    const LobeSums truth = integrate_over_quad(scene.scene(), seen("plane"), corner, u, v, 300);
+    const Picture picture = render(scene);
+    All all;
+    all << compare(picture, truth, {"diffuse"}, "_direct", Color::grey(0.25F)) << compare(picture, truth, {"specular", "coat", "sheen"}, "_direct", Color::grey(0.75F));
     return all.verdict();
 }
 
@@ -211,7 +236,7 @@ Verdict check_path_log() {
 
 std::vector<NamedCheck> lobe_checks() {
     return {{"lobes under a quad", check_lobes_under_a_quad},       {"lobes under a dome", check_lobes_under_a_dome}, {"lobes on both sides", check_lobes_on_both_sides},
-            {"lobes through one bounce", check_lobes_through_one_bounce}, {"depth limits by lobe", check_depth_limits_by_lobe}, {"single lobes", check_single_lobes},
+            {"lobes through one bounce", check_lobes_through_one_bounce}, {"depth limits by lobe", check_depth_limits_by_lobe}, {"masks by lobe", check_masks_by_lobe}, {"multipliers by lobe", check_multipliers_by_lobe}, {"single lobes", check_single_lobes},
             {"direct light is direct", check_direct_light_is_direct},     {"additive sets", check_additive_sets},               {"path log", check_path_log}};
 }
 

@@ -22,6 +22,10 @@ namespace lightsieve::testing {
 [[nodiscard]] Verdict check_lobes_through_one_bounce();
 /// Diffuse and specular depth differ: one direction belongs to both lobes, but only one may go on.
 [[nodiscard]] Verdict check_depth_limits_by_lobe();
+/// A wall that only some ray types see: likewise.
+[[nodiscard]] Verdict check_masks_by_lobe();
+/// A light whose multipliers differ for diffuse and specular: likewise.
+[[nodiscard]] Verdict check_multipliers_by_lobe();
 /// Coat alone, glass alone, ...: all light in one AOV, exactly none in the others.
 [[nodiscard]] Verdict check_single_lobes();
 /// Lights met by rays are light, not emission: a convex object without bounces has no indirect light.
