@@ -10,10 +10,10 @@
 namespace lightsieve {
 
 /// Within 0..1; nan becomes 0.
-inline float unit(float v) { return std::fmin(std::fmax(v, 0.0F), 1.0F); }
+inline float unit(float v) { return v > 0 ? std::min(v, 1.0F) : 0.0F; }
 inline Color unit(Color c) { return {unit(c.r), unit(c.g), unit(c.b)}; }
 /// Not below 0; nan becomes 0.
-inline float positive(float v) { return std::fmax(v, 0.0F); }
+inline float positive(float v) { return v > 0 ? v : 0.0F; }
 inline Color positive(Color c) { return {positive(c.r), positive(c.g), positive(c.b)}; }
 
 /// Smallest cosine between a bumped normal and the direction to the viewer.
