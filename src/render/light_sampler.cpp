@@ -271,6 +271,9 @@ struct LightSampler::Builder {
     }
 
     void build() {
+        const auto can_pick = [](const Place& p) { return p.kind != Place::Kind::Absent; };
+        if (std::ranges::count_if(out.places_, can_pick) == 1)
+            out.lone_ = static_cast<std::uint32_t>(std::ranges::find_if(out.places_, can_pick) - out.places_.begin());
         if (clusters.empty()) return;
         binary.reserve(2 * clusters.size());
         build_wide(build_binary(0, clusters.size(), 0), kNone, 0);
@@ -392,6 +395,7 @@ float LightSampler::tree_probability(float tree, float infinite) noexcept {
 }
 
 LightPick LightSampler::pick(Vec3f position, Vec3f normal, float u) const noexcept {
+    if (lone_ != kNone) return {lone_, 1, u};
     const Weights root = weigh_root(position, normal);
     const float infinite = infinite_.empty() ? 0 : infinite_importance(normal);
     const float p_tree = tree_probability(root.sum, infinite);
@@ -445,6 +449,7 @@ LightPick LightSampler::pick_infinite(Vec3f normal, float sum, LightPick so_far)
 
 float LightSampler::probability(Vec3f position, Vec3f normal, std::uint32_t light) const noexcept {
     if (light >= places_.size() || places_[light].kind == Place::Kind::Absent) return 0;
+    if (lone_ != kNone) return 1;
     const Place& place = places_[light];
     const Weights root = weigh_root(position, normal);
     const float infinite = infinite_.empty() ? 0 : infinite_importance(normal);

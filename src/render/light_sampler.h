@@ -44,7 +44,8 @@ class LightSampler {
     /// normal    unit shading normal on the side that light must come from; the zero vector where light from both
     ///           sides counts: volumes, transmissive surfaces, lobes with normals of their own
     /// u         in [0,1)
-    /// Never misses a light that can contribute: probability 0 only where a bound proves darkness.
+    /// Never misses a light that can contribute: probability 0 only where a bound proves darkness. A light that is alone
+    /// is always picked.
     [[nodiscard]] LightPick pick(Vec3f position, Vec3f normal, float u) const noexcept;
     /// The probability with which `pick` gives `light` there: the same arithmetic, so exactly the same number.
     [[nodiscard]] float probability(Vec3f position, Vec3f normal, std::uint32_t light) const noexcept;
@@ -113,6 +114,7 @@ class LightSampler {
     std::vector<Bounds4> bounds_;     ///< of the nodes' branches
     std::vector<Infinite> infinite_;  ///< in the caller's order
     std::vector<Place> places_;       ///< one for each light of the caller's span
+    std::uint32_t lone_ = kNone;      ///< the light that can be picked, if there is only one
 };
 
 }  // namespace lightsieve
