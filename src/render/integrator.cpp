@@ -103,7 +103,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time, const M
         const std::array<Vec2f, 4> points = sampler.at2x4(kFirstPair + segment_ * kPairsPerSegment);
         points_ = {points[0], points[1], points[2], points[3]};
         choose_probabilities();
-        if (n_channels_ > 0) add_light_samples(surface);
+        if (n_channels_ > 0 && !all_delta_) add_light_samples(surface);
         if (!scatter(surface, ray)) return;
     }
 }
@@ -328,8 +328,10 @@ template <class Tracker>
 void Integrator<Tracker>::gather_channels() {
     n_channels_ = 0;
     transmissive_ = false;
+    all_delta_ = true;
     const std::span<const Closure> closures = closures_.closures();
     for (std::size_t i = 0; i < closures.size(); ++i) {
+        all_delta_ = all_delta_ && closures_.delta(i);
         transmissive_ |= closures[i].record->kind == EventKind::Transmission;
         std::size_t c = 0;
         while (c < n_channels_ && !channels_[c].matches(closures[i]))
@@ -359,6 +361,12 @@ void Integrator<Tracker>::choose_probabilities() {
             if (!g.key.lights_only && channel_allowed(g.key, channels_[c])) reach[c] += g.throughput;
     float total = 0;
     const std::size_t n = n_channels_ > 0 ? closures_.closures().size() : 0;
+    if (n == 1 && is_black(closures_.transparency())) {
+        // No choice: what the lobe returns need not be known.
+        probability_[0] = is_black(reach[0]) ? 0 : 1;
+        pass_probability_ = 0;
+        return;
+    }
     for (std::size_t i = 0; i < n; ++i) {
         probability_[i] = std::max(0.0F, luminance(reach[channel_of_[i]] * closures_.albedo(i)));
         total += probability_[i];
@@ -378,7 +386,6 @@ float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi, std::span<
     const std::span<const Closure> closures = closures_.closures();
     float pdf = 0;
     for (std::size_t i = 0; i < closures.size(); ++i) {
-        if (closures_.delta(i)) continue;
         const LobeEval eval = closures_.eval(i, wi);
         pdf += probability_[i] * eval.pdf;
         if (sides_agree) by_channel[channel_of_[i]] += eval.f;

@@ -133,6 +133,7 @@ class Integrator {
     std::array<float, ClosureSet::kMaxClosures> probability_;   ///< of drawing each closure
     float pass_probability_ = 0;                                ///< of going straight through
     bool transmissive_ = false;                                 ///< some lobe sends light to the other side
+    bool all_delta_ = false;                                    ///< no light sample can get through any lobe
 };
 
 extern template class Integrator<AovTracker>;
