@@ -138,6 +138,8 @@ def test_other_threads_run_during_a_render() -> None:
 def test_ctrl_c_raises_keyboard_interrupt() -> None:
     code = (
         "import os, signal, lightsieve\n"
+        # A shell starts background jobs with the signal ignored; the test may run in one.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "def interrupt(now): os.kill(os.getpid(), signal.SIGINT)\n"
         "try:\n"
         f"    lightsieve.render({str(STILL)!r}, spp=10_000_000, progress=interrupt)\n"

@@ -1,0 +1,54 @@
+"""The C++ unit tests and whole renders under the address and undefined-behaviour sanitizers."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import ROOT
+
+pytestmark = pytest.mark.big
+
+BUILD = ROOT / "build/sanitize"
+SCENES = sorted([*(ROOT / "tests/broken").glob("*.ass"), *(ROOT / "tests/scenes").glob("*.ass")])
+
+
+def run(*command: str | Path, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
+    # What libraries keep until the end of the process is not for us to free.
+    environment = {**os.environ, "ASAN_OPTIONS": "detect_leaks=0"}
+    return subprocess.run(
+        [str(part) for part in command],
+        cwd=cwd,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="module")
+def build() -> Path:
+    for command in (
+        ("cmake", "--preset", "sanitize"),
+        ("cmake", "--build", "--preset", "sanitize"),
+    ):
+        done = run(*command)
+        assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-4000:]
+    return BUILD
+
+
+def test_unit_tests(build: Path) -> None:
+    done = run("ctest", "--test-dir", build, "--output-on-failure")
+    assert done.returncode == 0, done.stdout[-8000:]
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.stem)
+def test_renders(build: Path, scene: Path, tmp_path: Path) -> None:
+    tool = build / "src/tool/lightsieve_tool"
+    picture = tmp_path / "picture.exr"
+    done = run(tool, "render", scene, "-o", picture, "--spp", "4", "--size", "32x24", cwd=tmp_path)
+    assert done.returncode in (0, 1), done.stderr[-8000:]
+    assert "runtime error" not in done.stderr
