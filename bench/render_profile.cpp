@@ -41,10 +41,11 @@ int profile(int argc, char** argv) {
     const std::clock_t start = std::clock();
     const RenderResult result = render_scene(*scene, {}, diagnostics);
     const double processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    std::printf("%.3f s, %.3f s of processors, %.0f samples, %.2f rays a sample, %.3f million rays/s\n", result.seconds, processor,
-                static_cast<double>(result.samples),
-                static_cast<double>(result.rays) / static_cast<double>(result.samples),
-                static_cast<double>(result.rays) / result.seconds * 1e-6);
+    std::printf(
+        "%.3f s, %.3f s of processors, %.0f samples, %.2f rays a sample, %.3f million rays/s\n",
+        result.seconds, processor, static_cast<double>(result.samples),
+        static_cast<double>(result.rays) / static_cast<double>(result.samples),
+        static_cast<double>(result.rays) / result.seconds * 1e-6);
     return 0;
 }
 
@@ -53,7 +54,8 @@ int profile(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     if (argc < 2) {
-        std::fputs("usage: render_profile SCENE.ass [SAMPLES_PER_PIXEL [THREADS [builtins]]]\n", stderr);
+        std::fputs("usage: render_profile SCENE.ass [SAMPLES_PER_PIXEL [THREADS [builtins]]]\n",
+                   stderr);
         return 2;
     }
     return lightsieve::profile(argc, argv);

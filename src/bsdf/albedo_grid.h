@@ -60,7 +60,9 @@ inline constexpr int kCriticalNode = 14;
 }
 
 /// y in [0,1] to [0,1], logarithmic from scale k on.
-[[nodiscard]] inline float logarithmic(float y, float k) { return quick_log2(1 + y / k) / quick_log2(1 + 1 / k); }
+[[nodiscard]] inline float logarithmic(float y, float k) {
+    return quick_log2(1 + y / k) / quick_log2(1 + 1 / k);
+}
 
 /// Width of the blur of the critical angle; 1 - eta^2 is its distance from the horizon.
 [[nodiscard]] inline float blur(float alpha, float eta) {
@@ -75,7 +77,8 @@ inline constexpr int kCriticalNode = 14;
     const float k = blur(alpha, eta);
     const float cos2_critical = (1 - eta) * (1 + eta), cos_critical = std::sqrt(cos2_critical);
     const float beyond = square(cos_theta) - cos2_critical;
-    if (beyond >= 0) return kCritical + (1 - kCritical) * logarithmic(std::min(beyond / square(eta), 1.0F), k);
+    if (beyond >= 0)
+        return kCritical + (1 - kCritical) * logarithmic(std::min(beyond / square(eta), 1.0F), k);
     const float y = std::min(1 - cos_theta / cos_critical, 1.0F);
     return kCritical * (1 - 0.5F * (1 + logarithmic(y, k) - logarithmic(1 - y, k)));
 }

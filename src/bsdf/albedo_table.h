@@ -31,7 +31,8 @@ struct MeanCosines {
 /// What an interface does with the light from wo.
 struct DielectricShares {
     float reflected;  ///< R, as dielectric_albedo
-    float refracted;  ///< T / (1 - R), T the albedo of Walter's refraction with (1 - F): the rest is lost to shadowing
+    float
+        refracted;  ///< T / (1 - R), T the albedo of Walter's refraction with (1 - F): the rest is lost to shadowing
 };
 /// The same arguments as dielectric_albedo.
 [[nodiscard]] DielectricShares dielectric_shares(float cos_theta, float alpha, float eta) noexcept;

@@ -31,7 +31,10 @@ Errors dielectric_errors(float eta) {
     Errors errors;
     for (const float c : kCosines)
         for (const float alpha : kAlphas)
-            errors.add(dielectric_albedo(c, alpha, eta) - measured_albedo(DielectricReflect(GgxAlpha(alpha), eta), direction(c, 0), kSamples, random).r);
+            errors.add(dielectric_albedo(c, alpha, eta) -
+                       measured_albedo(DielectricReflect(GgxAlpha(alpha), eta), direction(c, 0),
+                                       kSamples, random)
+                           .r);
     return errors;
 }
 
@@ -41,7 +44,8 @@ TEST(AlbedoTable, WhiteMicrofacets) {
     for (const float c : kCosines)
         for (const float alpha : kAlphas) {
             const SchlickReflect white(GgxAlpha(alpha), kWhite, kWhite);
-            EXPECT_NEAR(measured_albedo(white, direction(c, 0), kSamples, random).r, 1, 4e-3F) << c << " " << alpha;
+            EXPECT_NEAR(measured_albedo(white, direction(c, 0), kSamples, random).r, 1, 4e-3F)
+                << c << " " << alpha;
         }
 }
 
@@ -66,7 +70,8 @@ TEST(AlbedoTable, NarrowLobesTendToFresnel) {
         for (const float c : {0.3F, 0.6F, 0.9F, 1.0F}) {
             const float exact = fresnel_dielectric(c, eta).reflectance;
             EXPECT_EQ(dielectric_albedo(c, 0, eta), exact);
-            EXPECT_NEAR(dielectric_albedo(c, 1.1F * kSmoothAlpha, eta), exact, 2e-3F) << eta << " " << c;
+            EXPECT_NEAR(dielectric_albedo(c, 1.1F * kSmoothAlpha, eta), exact, 2e-3F)
+                << eta << " " << c;
         }
 }
 
@@ -76,11 +81,14 @@ TEST(AlbedoTable, NeverOutOfRange) {
         // Squares and cubes reach the edges; the last ones are the edges.
         const float c = i % 7 == 0 ? 1 : std::max(1e-6F, square(random.unit()) * random.unit());
         const float alpha = i % 11 == 0 ? 1 : square(random.unit());
-        const float stretch = 1 + (kMaxEta - 1) * (i % 13 == 0 ? 1 : square(square(random.unit())));
+        const float stretch =
+            1 + (kMaxEta - 1) * (i % 13 == 0 ? 1 : square(square(random.unit())));
         const float eta = i % 2 == 0 ? stretch : 1 / stretch;
         const DielectricShares shares = dielectric_shares(c, alpha, eta);
-        ASSERT_TRUE(shares.reflected >= 0 && shares.reflected <= 1) << c << " " << alpha << " " << eta;
-        ASSERT_TRUE(shares.refracted >= 0 && shares.refracted <= 1.05F) << c << " " << alpha << " " << eta << " " << shares.refracted;
+        ASSERT_TRUE(shares.reflected >= 0 && shares.reflected <= 1)
+            << c << " " << alpha << " " << eta;
+        ASSERT_TRUE(shares.refracted >= 0 && shares.refracted <= 1.05F)
+            << c << " " << alpha << " " << eta << " " << shares.refracted;
         const float e = ggx_albedo(c, alpha);
         ASSERT_TRUE(e > 0.2F && e <= 1.001F) << c << " " << alpha;
         const float sheen = sheen_albedo(c, random.between(0.07F, 1));

@@ -8,7 +8,9 @@ namespace {
 /// Directions nearer to the horizon are lifted to it: the models divide by wo.z.
 constexpr float kMinCosOut = 1e-5F;
 
-Frame facing(const Frame& frame, Vec3f side) { return dot(frame.z, side) < 0 ? Frame{frame.x, -frame.y, -frame.z} : frame; }
+Frame facing(const Frame& frame, Vec3f side) {
+    return dot(frame.z, side) < 0 ? Frame{frame.x, -frame.y, -frame.z} : frame;
+}
 
 /// Negative to 0; not finite anywhere makes all of it black.
 Color valid_weight(Color c) {
@@ -40,11 +42,13 @@ std::uint8_t ClosureSet::add_frame(const Frame& frame) {
 }
 
 const LobeRecord& ClosureSet::record(int lobe) const {
-    LIGHTSIEVE_ASSERT(static_cast<std::size_t>(lobe) < records_.size(), std::to_string(lobe) + " of " + std::to_string(records_.size()));
+    LIGHTSIEVE_ASSERT(static_cast<std::size_t>(lobe) < records_.size(),
+                      std::to_string(lobe) + " of " + std::to_string(records_.size()));
     return records_[static_cast<std::size_t>(lobe)];
 }
 
-void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame, bool caustics) {
+void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame,
+                     bool caustics) {
     const Color total = valid_weight(scale_ * weight);
     if (is_black(total)) return;
     if (n_ == kMaxClosures) {
@@ -67,14 +71,16 @@ void ClosureSet::emit(int lobe, Color radiance) {
 LobeEval ClosureSet::eval(std::size_t i, Vec3f wi) const noexcept {
     const Closure& c = closures_[i];
     const Vec3f wi_local = frames_[c.frame].local_from_world(wi);
-    LobeEval e = std::visit([&](const auto& model) { return model.eval(wo_local_[c.frame], wi_local); }, c.model);
+    LobeEval e = std::visit(
+        [&](const auto& model) { return model.eval(wo_local_[c.frame], wi_local); }, c.model);
     e.f *= c.weight;
     return e;
 }
 
 LobeSample ClosureSet::sample(std::size_t i, Vec2f u, float u_choice) const noexcept {
     const Closure& c = closures_[i];
-    LobeSample s = std::visit([&](const auto& model) { return model.sample(wo_local_[c.frame], u, u_choice); }, c.model);
+    LobeSample s = std::visit(
+        [&](const auto& model) { return model.sample(wo_local_[c.frame], u, u_choice); }, c.model);
     s.wi = frames_[c.frame].world_from_local(s.wi);
     s.f *= c.weight;
     return s;
@@ -82,7 +88,9 @@ LobeSample ClosureSet::sample(std::size_t i, Vec2f u, float u_choice) const noex
 
 Color ClosureSet::albedo(std::size_t i) const noexcept {
     const Closure& c = closures_[i];
-    return c.weight * std::visit([&](const auto& model) { return model.albedo(wo_local_[c.frame]); }, c.model);
+    return c.weight *
+           std::visit([&](const auto& model) { return model.albedo(wo_local_[c.frame]); },
+                      c.model);
 }
 
 bool ClosureSet::delta(std::size_t i) const noexcept {

@@ -19,27 +19,28 @@ namespace lightsieve {
 
 /// What the renderer needs to know of one lobe of a shader instance; made at compile, indexed by the lobe's index.
 struct LobeRecord {
-    std::uint32_t event_class = 0;             ///< scattering: the engine's class of the event
-    std::uint32_t terminal = 0;                ///< emission: the engine's terminal
-    std::uint32_t event = 0;                   ///< position in the scene's list of events, for logs
+    std::uint32_t event_class = 0;  ///< scattering: the engine's class of the event
+    std::uint32_t terminal = 0;     ///< emission: the engine's terminal
+    std::uint32_t event = 0;        ///< position in the scene's list of events, for logs
     EventKind kind = EventKind::Reflection;
     EventLobe lobe = EventLobe::Diffuse;
-    bool subsurface = false;                   ///< scatters like TD, but counts as a subsurface ray
-    bool exit_to_background = false;           ///< rays past their depth limit see the background instead of black
+    bool subsurface = false;  ///< scatters like TD, but counts as a subsurface ray
+    bool exit_to_background =
+        false;  ///< rays past their depth limit see the background instead of black
 };
 
 /// One weighted lobe.
 struct Closure {
-    LobeModel model;            ///< bsdf/models.h
-    Color weight;               ///< multiplies eval, sample and albedo
+    LobeModel model;  ///< bsdf/models.h
+    Color weight;     ///< multiplies eval, sample and albedo
     const LobeRecord* record = nullptr;
-    std::uint8_t frame = 0;     ///< into the set's frames
+    std::uint8_t frame = 0;  ///< into the set's frames
     /// Specular lobes with the shader's `caustics` off are dead at vertices that a diffuse ray reached.
     bool caustics = true;
 };
 
 struct Emission {
-    Color radiance;             ///< leaving toward wo [W/(m^2 sr)]
+    Color radiance;  ///< leaving toward wo [W/(m^2 sr)]
     const LobeRecord* record = nullptr;
 };
 
@@ -61,7 +62,9 @@ class ClosureSet {
     void set_scale(Color scale) { scale_ = scale; }
     [[nodiscard]] Color scale() const { return scale_; }
     /// Adds lobe number `lobe` of the shader with the hit's shading frame. Black or non-finite weights are left out.
-    void add(int lobe, const LobeModel& model, Color weight, bool caustics = true) { add(lobe, model, weight, 0, caustics); }
+    void add(int lobe, const LobeModel& model, Color weight, bool caustics = true) {
+        add(lobe, model, weight, 0, caustics);
+    }
     /// The same with a frame made by add_frame.
     void add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame, bool caustics);
     /// Registers a frame (turned to the side of the first one); returns its number.
@@ -78,7 +81,9 @@ class ClosureSet {
 
     // For the integrator ---------------------------------------------------------------------------------------
     [[nodiscard]] std::span<const Closure> closures() const { return {closures_.data(), n_}; }
-    [[nodiscard]] std::span<const Emission> emissions() const { return {emissions_.data(), n_emissions_}; }
+    [[nodiscard]] std::span<const Emission> emissions() const {
+        return {emissions_.data(), n_emissions_};
+    }
     [[nodiscard]] Color transparency() const { return transparency_; }
     [[nodiscard]] Color shadow_transmission() const { return shadow_transmission_; }
     [[nodiscard]] Color matte() const { return matte_; }

@@ -9,7 +9,8 @@
 namespace lightsieve {
 namespace {
 
-const std::array<LobeRecord, 2> kRecords{LobeRecord{}, LobeRecord{.event_class = 7, .lobe = EventLobe::Specular}};
+const std::array<LobeRecord, 2> kRecords{
+    LobeRecord{}, LobeRecord{.event_class = 7, .lobe = EventLobe::Specular}};
 
 ClosureSet begun(Vec3f wo, const Frame& frame) {
     ClosureSet set;
@@ -55,11 +56,13 @@ TEST(ClosureSet, ScaleActsOnEverything) {
 
 TEST(ClosureSet, CountsWhatDoesNotFit) {
     ClosureSet set = begun({0, 0, 1}, Frame{});
-    for (std::size_t i = 0; i < ClosureSet::kMaxClosures + 3; ++i) set.add(0, DiffuseReflect(kWhite), kWhite);
+    for (std::size_t i = 0; i < ClosureSet::kMaxClosures + 3; ++i)
+        set.add(0, DiffuseReflect(kWhite), kWhite);
     EXPECT_EQ(set.closures().size(), ClosureSet::kMaxClosures);
     EXPECT_EQ(set.n_dropped(), 3U);
     // Frames that do not fit are the shading frame.
-    for (std::size_t i = 1; i < ClosureSet::kMaxFrames; ++i) EXPECT_EQ(set.add_frame(Frame{}), i);
+    for (std::size_t i = 1; i < ClosureSet::kMaxFrames; ++i)
+        EXPECT_EQ(set.add_frame(Frame{}), i);
     EXPECT_EQ(set.add_frame(Frame{}), 0);
 }
 

@@ -34,7 +34,9 @@ Color facing(Color n, Color k) {
 /// Facet reflectance times the compensation for wo.
 struct Metal {
     Color n, k, compensation;
-    Color operator()(float cos_theta) const noexcept { return fresnel_conductor(cos_theta, n, k) * compensation; }
+    Color operator()(float cos_theta) const noexcept {
+        return fresnel_conductor(cos_theta, n, k) * compensation;
+    }
 };
 
 Metal metal(const ConductorReflect& c, Vec3f wo) {
@@ -45,9 +47,12 @@ Metal metal(const ConductorReflect& c, Vec3f wo) {
 }  // namespace
 
 ConductorReflect::ConductorReflect(GgxAlpha roughness, Color index, Color extinction) noexcept
-    : alpha(roughness), n(clamp(non_negative(index), kMinIndex, kMaxIndex)), k(non_negative(extinction)) {}
+    : alpha(roughness),
+      n(clamp(non_negative(index), kMinIndex, kMaxIndex)),
+      k(non_negative(extinction)) {}
 
-ConductorReflect ConductorReflect::from_artistic(GgxAlpha roughness, Color reflectivity, Color edge_tint) noexcept {
+ConductorReflect ConductorReflect::from_artistic(GgxAlpha roughness, Color reflectivity,
+                                                 Color edge_tint) noexcept {
     ConductorReflect c(roughness, kBlack, kBlack);
     artistic_index(reflectivity.r, edge_tint.r, c.n.r, c.k.r);
     artistic_index(reflectivity.g, edge_tint.g, c.n.g, c.k.g);
@@ -65,7 +70,9 @@ LobeSample ConductorReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {
 }
 
 Color ConductorReflect::albedo(Vec3f wo) const noexcept {
-    return ggx_compensated_albedo(wo, alpha, facing(n, k), [&](float cos_theta) { return fresnel_conductor(cos_theta, n, k); });
+    return ggx_compensated_albedo(wo, alpha, facing(n, k), [&](float cos_theta) {
+        return fresnel_conductor(cos_theta, n, k);
+    });
 }
 
 }  // namespace lightsieve

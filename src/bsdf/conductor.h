@@ -20,7 +20,8 @@ struct ConductorReflect {
     /// n and k; negative and NaN become 0, infinite very large.
     ConductorReflect(GgxAlpha roughness, Color index, Color extinction) noexcept;
     /// The metal with the given reflectance facing the viewer and `edge_tint` (0..1, 1 = brightest) toward the edge.
-    [[nodiscard]] static ConductorReflect from_artistic(GgxAlpha roughness, Color reflectivity, Color edge_tint) noexcept;
+    [[nodiscard]] static ConductorReflect from_artistic(GgxAlpha roughness, Color reflectivity,
+                                                        Color edge_tint) noexcept;
 
     [[nodiscard]] LobeEval eval(Vec3f wo, Vec3f wi) const noexcept;
     [[nodiscard]] LobeSample sample(Vec3f wo, Vec2f u, float u_choice) const noexcept;

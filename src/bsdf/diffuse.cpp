@@ -12,7 +12,8 @@ constexpr float kFon2 = 2.0F / 3 - 28 / (15 * kPi);
 /// Albedo of single scattering for reflectance 1: the polynomial fit of the paper's G (listing 1), within 1e-3.
 float fon_albedo(float mu, float roughness, float a) {
     const float m = 1 - mu;
-    const float g_over_pi = m * (0.0571085289F + m * (0.491881867F + m * (-0.332181442F + m * 0.0714429953F)));
+    const float g_over_pi =
+        m * (0.0571085289F + m * (0.491881867F + m * (-0.332181442F + m * 0.0714429953F)));
     return std::min(a * (1 + roughness * g_over_pi), 1.0F);
 }
 
@@ -22,7 +23,9 @@ float multiple(float reflectance, float mean) {
     return rho * rho * mean / (1 - rho * (1 - mean));
 }
 
-Color multiple(Color c, float mean) { return {multiple(c.r, mean), multiple(c.g, mean), multiple(c.b, mean)}; }
+Color multiple(Color c, float mean) {
+    return {multiple(c.r, mean), multiple(c.g, mean), multiple(c.b, mean)};
+}
 
 float non_negative(float v) { return v > 0 && std::isfinite(v) ? v : 0.0F; }
 
@@ -45,7 +48,8 @@ Color DiffuseSurface::value(Vec3f wo, Vec3f wi) const noexcept {
 
     // Multiple scattering: what single scattering loses at both ends (eq. 24).
     const float mean = a * (1 + kFon2 * roughness);
-    const float lost_o = 1 - fon_albedo(wo.z, roughness, a), lost_i = 1 - fon_albedo(wi.z, roughness, a);
+    const float lost_o = 1 - fon_albedo(wo.z, roughness, a),
+                lost_i = 1 - fon_albedo(wi.z, roughness, a);
     const float twice = lost_o * lost_i / (1 - mean);
     return (color * single + multiple(color, mean) * twice) * (kInvPi * wi.z);
 }

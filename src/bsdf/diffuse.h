@@ -30,7 +30,8 @@ struct DiffuseReflect {
     DiffuseSurface surface;
 
     DiffuseReflect() = default;
-    explicit DiffuseReflect(Color color, float roughness = 0) noexcept : surface(color, roughness) {}
+    explicit DiffuseReflect(Color color, float roughness = 0) noexcept
+        : surface(color, roughness) {}
     [[nodiscard]] LobeEval eval(Vec3f wo, Vec3f wi) const noexcept;
     [[nodiscard]] LobeSample sample(Vec3f wo, Vec2f u, float u_choice) const noexcept;
     [[nodiscard]] Color albedo(Vec3f wo) const noexcept { return surface.albedo(wo.z); }
@@ -42,7 +43,8 @@ struct DiffuseTransmit {
     DiffuseSurface surface;
 
     DiffuseTransmit() = default;
-    explicit DiffuseTransmit(Color color, float roughness = 0) noexcept : surface(color, roughness) {}
+    explicit DiffuseTransmit(Color color, float roughness = 0) noexcept
+        : surface(color, roughness) {}
     [[nodiscard]] LobeEval eval(Vec3f wo, Vec3f wi) const noexcept;
     [[nodiscard]] LobeSample sample(Vec3f wo, Vec2f u, float u_choice) const noexcept;
     [[nodiscard]] Color albedo(Vec3f wo) const noexcept { return surface.albedo(wo.z); }

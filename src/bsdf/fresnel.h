@@ -10,7 +10,7 @@ namespace lightsieve {
 /// Reflectance of a dielectric interface and the cosine on the far side.
 struct FresnelDielectric {
     float reflectance;  ///< 0..1; 1 under total internal reflection
-    float cos_far;      ///< cosine of the refracted direction, >= 0; 0 under total internal reflection
+    float cos_far;  ///< cosine of the refracted direction, >= 0; 0 under total internal reflection
 };
 
 /// Unpolarised reflectance of a dielectric.
@@ -29,7 +29,9 @@ struct FresnelDielectric {
 }
 
 /// Reflectance at normal incidence.
-[[nodiscard]] inline float fresnel_dielectric_facing(float eta) noexcept { return square((eta - 1) / (eta + 1)); }
+[[nodiscard]] inline float fresnel_dielectric_facing(float eta) noexcept {
+    return square((eta - 1) / (eta + 1));
+}
 
 /// Unpolarised reflectance of a metal with index n and extinction k, relative to the side of the light.
 /// source  Lagarde, "Memo on Fresnel equations", 2013 (the exact form), with the mean of both polarisations
@@ -42,11 +44,13 @@ struct FresnelDielectric {
     const float a = std::sqrt(std::max(0.0F, 0.5F * (a2_b2 + t0)));
     const float t1 = a2_b2 + cos2, t2 = 2 * cos_theta * a;
     const float t3 = cos2 * a2_b2 + sin2 * sin2, t4 = t2 * sin2;
-    return std::max((t1 - t2) * t3 / ((t1 + t2) * (t3 + t4)), 0.0F);  // matched indices round to below 0
+    return std::max((t1 - t2) * t3 / ((t1 + t2) * (t3 + t4)),
+                    0.0F);  // matched indices round to below 0
 }
 
 [[nodiscard]] inline Color fresnel_conductor(float cos_theta, Color n, Color k) noexcept {
-    return {fresnel_conductor(cos_theta, n.r, k.r), fresnel_conductor(cos_theta, n.g, k.g), fresnel_conductor(cos_theta, n.b, k.b)};
+    return {fresnel_conductor(cos_theta, n.r, k.r), fresnel_conductor(cos_theta, n.g, k.g),
+            fresnel_conductor(cos_theta, n.b, k.b)};
 }
 
 }  // namespace lightsieve

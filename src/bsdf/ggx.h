@@ -41,7 +41,8 @@ struct GgxAlpha {
     [[nodiscard]] float toward(Vec3f wo) const noexcept {
         if (x == y) return x;
         const float x2 = x * x, y2 = y * y, across2 = wo.x * wo.x + wo.y * wo.y;
-        const float along = across2 > 1e-6F ? (x2 * wo.x * wo.x + y2 * wo.y * wo.y) / across2 : 0.5F * (x2 + y2);
+        const float along =
+            across2 > 1e-6F ? (x2 * wo.x * wo.x + y2 * wo.y * wo.y) / across2 : 0.5F * (x2 + y2);
         return std::min(std::sqrt(lerp(x2 + y2 - along, along, 0.5F * wo.z)), 1.0F);
     }
     /// 0: isotropic, toward 1: stretched.
@@ -69,7 +70,8 @@ struct GgxAlpha {
     const float quarter = std::floor(4 * u + 0.5F);
     const float x = (u - 0.25F * quarter) * (2 * kPi), x2 = x * x;
     const float s = x * (1 + x2 * (-1.6666655E-1F + x2 * (8.3321609E-3F - 1.9515296E-4F * x2)));
-    const float c = 1 - 0.5F * x2 + x2 * x2 * (4.1666646E-2F + x2 * (-1.3887316E-3F + 2.4433157E-5F * x2));
+    const float c =
+        1 - 0.5F * x2 + x2 * x2 * (4.1666646E-2F + x2 * (-1.3887316E-3F + 2.4433157E-5F * x2));
     // Turn back by that multiple.
     const int turn = static_cast<int>(quarter) & 3;
     const float cos_value = (turn & 1) != 0 ? s : c, sin_value = (turn & 1) != 0 ? c : s;
@@ -101,20 +103,23 @@ struct GgxReflection {
     const float h_squared = length_squared(h);
     const float d = ggx_d(h, h_squared, alpha);
     const float v_o = ggx_v(wo, alpha), v_i = ggx_v(wi, alpha);
-    return {0.5F * d * wi.z / (wi.z * v_o + wo.z * v_i), 0.5F * d / (wo.z + v_o), std::min(0.5F * std::sqrt(h_squared), 1.0F)};
+    return {0.5F * d * wi.z / (wi.z * v_o + wo.z * v_i), 0.5F * d / (wo.z + v_o),
+            std::min(0.5F * std::sqrt(h_squared), 1.0F)};
 }
 
 /// eval() of a rough GGX reflection lobe for wi.z > 0.
 /// fresnel  gives the reflectance of a microfacet for its cosine, with everything else that scales it
 template <class Fresnel>
-[[nodiscard]] inline LobeEval ggx_eval_reflection(Vec3f wo, Vec3f wi, GgxAlpha alpha, const Fresnel& fresnel) noexcept {
+[[nodiscard]] inline LobeEval ggx_eval_reflection(Vec3f wo, Vec3f wi, GgxAlpha alpha,
+                                                  const Fresnel& fresnel) noexcept {
     const GgxReflection r = ggx_reflection(wo, wi, alpha);
     return {fresnel(r.cos_theta) * r.f, r.pdf};
 }
 
 /// sample() of a GGX reflection lobe, smooth or rough.
 template <class Fresnel>
-[[nodiscard]] inline LobeSample ggx_sample_reflection(Vec3f wo, Vec2f u, GgxAlpha alpha, const Fresnel& fresnel) noexcept {
+[[nodiscard]] inline LobeSample ggx_sample_reflection(Vec3f wo, Vec2f u, GgxAlpha alpha,
+                                                      const Fresnel& fresnel) noexcept {
     if (alpha.smooth()) return {{-wo.x, -wo.y, wo.z}, fresnel(wo.z), 1};
     const Vec3f h = ggx_sample_visible_normal(wo, alpha, u);
     const Vec3f wi = h * (2 * dot(wo, h)) - wo;

@@ -18,7 +18,8 @@ struct GgxWhite {
 };
 
 [[nodiscard]] inline GgxWhite ggx_white(Vec3f wo, GgxAlpha alpha) noexcept {
-    constexpr float kLeftOut = 0.25F;  // of 0.2, 0.25 and 0.4 the one with a gain of at most 5 % and the least loss
+    constexpr float kLeftOut =
+        0.25F;  // of 0.2, 0.25 and 0.4 the one with a gain of at most 5 % and the least loss
     if (alpha.smooth()) return {1, 0};
     const float e = ggx_albedo(wo.z, alpha.toward(wo)), lost = 1 / e - 1;
     return {e, alpha.x == alpha.y ? lost : lost * (1 - kLeftOut * alpha.stretch())};
@@ -27,12 +28,14 @@ struct GgxWhite {
 /// Directional albedo of a compensated lobe.
 /// fresnel  gives the reflectance of a microfacet for its cosine
 template <class Fresnel>
-[[nodiscard]] inline Color ggx_compensated_albedo(Vec3f wo, GgxAlpha alpha, Color facing, const Fresnel& fresnel) noexcept {
+[[nodiscard]] inline Color ggx_compensated_albedo(Vec3f wo, GgxAlpha alpha, Color facing,
+                                                  const Fresnel& fresnel) noexcept {
     if (alpha.smooth()) return fresnel(wo.z);
     const GgxWhite white = ggx_white(wo, alpha);
     const MeanCosines mean = ggx_mean_cosines(wo.z, alpha.toward(wo));
     Color sum;
-    for (std::size_t i = 0; i < mean.cosine.size(); ++i) sum += mean.weight[i] * fresnel(mean.cosine[i]);
+    for (std::size_t i = 0; i < mean.cosine.size(); ++i)
+        sum += mean.weight[i] * fresnel(mean.cosine[i]);
     return clamp(sum * (kWhite + facing * white.lost) * white.albedo, 0, 1);
 }
 

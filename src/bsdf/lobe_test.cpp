@@ -35,7 +35,8 @@ void for_each_lobe(const Body& body) {
 TEST(LobeCases, CoverEveryModel) {
     std::set<std::size_t> kinds;
     Random random(1);
-    for (const LobeCase& lobe : all_lobe_cases()) kinds.insert(lobe.random(random).index());
+    for (const LobeCase& lobe : all_lobe_cases())
+        kinds.insert(lobe.random(random).index());
     EXPECT_EQ(kinds.size(), std::variant_size_v<LobeModel>);
 }
 
@@ -50,29 +51,36 @@ constexpr double kEdgeError = 5e-3;
 constexpr double kMinExpected = 5;
 
 /// Integral of the density over a cell of (cos theta, phi): 3 x 3 Gauss points, halved until that changes nothing.
-double integrate_pdf(const LobeModel& model, Vec3f wo, float z0, float z1, float phi0, float phi1, int depth, double parent) {
-    static constexpr std::array<float, 3> kPoint{-0.77459667F, 0, 0.77459667F}, kWeight{5.0F / 18, 8.0F / 18, 5.0F / 18};
+double integrate_pdf(const LobeModel& model, Vec3f wo, float z0, float z1, float phi0, float phi1,
+                     int depth, double parent) {
+    static constexpr std::array<float, 3> kPoint{-0.77459667F, 0, 0.77459667F},
+        kWeight{5.0F / 18, 8.0F / 18, 5.0F / 18};
     const auto gauss = [&](float za, float zb, float pa, float pb) {
         double sum = 0;
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) {
-                const Vec3f wi = direction(lerp(za, zb, 0.5F + 0.5F * kPoint[i]), lerp(pa, pb, 0.5F + 0.5F * kPoint[j]));
+                const Vec3f wi = direction(lerp(za, zb, 0.5F + 0.5F * kPoint[i]),
+                                           lerp(pa, pb, 0.5F + 0.5F * kPoint[j]));
                 sum += static_cast<double>(kWeight[i] * kWeight[j] * eval(model, wo, wi).pdf);
             }
         return sum * static_cast<double>((zb - za) * (pb - pa));
     };
     const float zm = 0.5F * (z0 + z1), phim = 0.5F * (phi0 + phi1);
-    const std::array<double, 4> part{gauss(z0, zm, phi0, phim), gauss(zm, z1, phi0, phim), gauss(z0, zm, phim, phi1), gauss(zm, z1, phim, phi1)};
+    const std::array<double, 4> part{gauss(z0, zm, phi0, phim), gauss(zm, z1, phi0, phim),
+                                     gauss(z0, zm, phim, phi1), gauss(zm, z1, phim, phi1)};
     const double sum = part[0] + part[1] + part[2] + part[3];
     // 1e-6 is a tenth of a draw.
     if (depth == 0 || std::abs(sum - parent) < 1e-6) return sum;
-    return integrate_pdf(model, wo, z0, zm, phi0, phim, depth - 1, part[0]) + integrate_pdf(model, wo, zm, z1, phi0, phim, depth - 1, part[1]) +
-           integrate_pdf(model, wo, z0, zm, phim, phi1, depth - 1, part[2]) + integrate_pdf(model, wo, zm, z1, phim, phi1, depth - 1, part[3]);
+    return integrate_pdf(model, wo, z0, zm, phi0, phim, depth - 1, part[0]) +
+           integrate_pdf(model, wo, zm, z1, phi0, phim, depth - 1, part[1]) +
+           integrate_pdf(model, wo, z0, zm, phim, phi1, depth - 1, part[2]) +
+           integrate_pdf(model, wo, zm, z1, phim, phi1, depth - 1, part[3]);
 }
 
 /// Upper tail of the chi-square distribution; Wilson and Hilferty 1931, good to a few per cent of the tail here.
 double chi_square_tail(double statistic, int freedom) {
-    const double k = 2 / (9.0 * freedom), z = (std::cbrt(statistic / freedom) - (1 - k)) / std::sqrt(k);
+    const double k = 2 / (9.0 * freedom),
+                 z = (std::cbrt(statistic / freedom) - (1 - k)) / std::sqrt(k);
     return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
@@ -94,7 +102,8 @@ TEST(Lobe, SamplesFollowTheDensity) {
             for (int column = 0; column < kPhiCells; ++column) {
                 const auto z = [](int i) { return -1 + 2 * static_cast<float>(i) / kCosCells; };
                 const auto phi = [](int i) { return 2 * kPi * static_cast<float>(i) / kPhiCells; };
-                const double p = integrate_pdf(model, wo, z(row), z(row + 1), phi(column), phi(column + 1), kMaxSplits, -1);
+                const double p = integrate_pdf(model, wo, z(row), z(row + 1), phi(column),
+                                               phi(column + 1), kMaxSplits, -1);
                 expected[static_cast<std::size_t>(row * kPhiCells + column)] = p * kDraws;
                 total += p;
             }
@@ -120,12 +129,14 @@ TEST(Lobe, SamplesFollowTheDensity) {
             ++cells;
         }
         if (few_expected >= kMinExpected) {
-            statistic += (few_observed - few_expected) * (few_observed - few_expected) / few_expected;
+            statistic +=
+                (few_observed - few_expected) * (few_observed - few_expected) / few_expected;
             ++cells;
         } else {
             EXPECT_LT(few_observed / kDraws, kEdgeError);
         }
-        EXPECT_GT(chi_square_tail(statistic, cells - 1), threshold) << "statistic " << statistic << " of " << cells << " cells";
+        EXPECT_GT(chi_square_tail(statistic, cells - 1), threshold)
+            << "statistic " << statistic << " of " << cells << " cells";
     });
 }
 
@@ -140,14 +151,16 @@ TEST(Lobe, SampleReturnsWhatEvalReturns) {
             // The microfacet is found again from the directions, so peaks are a little uncertain.
             EXPECT_NEAR(length(s.wi), 1, 1e-5F);
             EXPECT_NEAR(e.pdf / s.pdf, 1, 5e-3F);
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(e.f[c], s.f[c], 5e-3F * s.f[c] + 1e-6F);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(e.f[c], s.f[c], 5e-3F * s.f[c] + 1e-6F);
         }
     });
 }
 
 TEST(Lobe, AlbedoIsTheIntegral) {
     for_each_lobe([](const LobeCase& lobe, const LobeModel& model, Vec3f wo, Random& random) {
-        const float difference = largest_difference(albedo(model, wo), measured_albedo(model, wo, 100, random));
+        const float difference =
+            largest_difference(albedo(model, wo), measured_albedo(model, wo, 100, random));
         EXPECT_LT(difference * lobe.layering(model, wo), lobe.albedo_tolerance);
     });
 }
@@ -178,7 +191,8 @@ TEST(Lobe, Reciprocal) {
         if (!lobe.reciprocal) return;
         for (int i = 0; i < 100; ++i) {
             const Vec3f wi = direction(random.between(0.02F, 1), random.between(0, 2 * kPi));
-            const Color there = eval(model, wo, wi).f * (1 / wi.z), back = eval(model, wi, wo).f * (1 / wo.z);
+            const Color there = eval(model, wo, wi).f * (1 / wi.z),
+                        back = eval(model, wi, wo).f * (1 / wo.z);
             EXPECT_LT(largest_difference(there, back), 1e-4F * max_component(there) + 1e-6F);
         }
     });
@@ -186,7 +200,10 @@ TEST(Lobe, Reciprocal) {
 
 // Edges ---------------------------------------------------------------------------------------------------------------
 
-bool sane(const LobeEval& e) { return is_finite(e.f) && std::isfinite(e.pdf) && e.pdf >= 0 && e.f.r >= 0 && e.f.g >= 0 && e.f.b >= 0; }
+bool sane(const LobeEval& e) {
+    return is_finite(e.f) && std::isfinite(e.pdf) && e.pdf >= 0 && e.f.r >= 0 && e.f.g >= 0 &&
+           e.f.b >= 0;
+}
 
 /// Every function with directions down to the horizon and random numbers at their ends.
 void expect_sane(const LobeModel& model) {
@@ -194,9 +211,12 @@ void expect_sane(const LobeModel& model) {
     for (const float cos_o : {1e-5F, 1e-3F, 0.1F, 0.745356F, 1.0F}) {
         const Vec3f wo = direction(cos_o, 0.3F);
         const Color a = albedo(model, wo);
-        ASSERT_TRUE(is_finite(a) && max_component(a) <= 1 + 1e-6F && std::min({a.r, a.g, a.b}) >= 0) << cos_o;
+        ASSERT_TRUE(is_finite(a) && max_component(a) <= 1 + 1e-6F &&
+                    std::min({a.r, a.g, a.b}) >= 0)
+            << cos_o;
         for (const float cos_i : {1.0F, 0.5F, 1e-3F, 1e-6F, 0.0F, -1e-6F, -1e-3F, -0.5F, -1.0F})
-            for (const float phi : {0.3F, 1.0F, 0.3F + kPi}) ASSERT_TRUE(sane(eval(model, wo, direction(cos_i, phi)))) << cos_o << " " << cos_i;
+            for (const float phi : {0.3F, 1.0F, 0.3F + kPi})
+                ASSERT_TRUE(sane(eval(model, wo, direction(cos_i, phi)))) << cos_o << " " << cos_i;
         for (const float x : {0.0F, 0.5F, 0x1.fffffep-1F})
             for (const float y : {0.0F, 0.5F, 0x1.fffffep-1F}) {
                 const LobeSample s = sample(model, wo, {x, y}, random.unit());
@@ -211,7 +231,8 @@ TEST(Lobe, EdgesOfParametersAreSane) {
     for (const float a : {-1.0F, 0.0F, 0.5e-3F, kSmoothAlpha, 0.03F, 1.0F, 5.0F, nan, kInfinity}) {
         SCOPED_TRACE(a);
         const GgxAlpha alpha(a), stretched(a, 0);
-        for (const float eta : {-1.0F, 0.0F, 0.25F, 0.667F, 0.999F, 1.0F, 1.0001F, 1.5F, 4.0F, 100.0F, nan, kInfinity}) {
+        for (const float eta : {-1.0F, 0.0F, 0.25F, 0.667F, 0.999F, 1.0F, 1.0001F, 1.5F, 4.0F,
+                                100.0F, nan, kInfinity}) {
             SCOPED_TRACE(eta);
             expect_sane(DielectricReflect(alpha, eta));
             expect_sane(DielectricReflect(stretched, eta));
@@ -220,7 +241,9 @@ TEST(Lobe, EdgesOfParametersAreSane) {
         }
         for (const float r : {-1.0F, 0.0F, 0.5F, 1.0F, 2.0F, nan}) {
             SCOPED_TRACE(r);
-            for (const float g : {0.0F, 1.0F, nan}) expect_sane(ConductorReflect::from_artistic(alpha, Color::grey(r), Color::grey(g)));
+            for (const float g : {0.0F, 1.0F, nan})
+                expect_sane(
+                    ConductorReflect::from_artistic(alpha, Color::grey(r), Color::grey(g)));
             expect_sane(ConductorReflect(alpha, Color::grey(r), Color::grey(a)));
             expect_sane(SchlickReflect(alpha, Color::grey(r), kWhite, Color::grey(a)));
         }
@@ -234,9 +257,11 @@ TEST(Lobe, EdgesOfParametersAreSane) {
 
 TEST(Lobe, EachStaysOnItsSide) {
     for_each_lobe([](const LobeCase&, const LobeModel& model, Vec3f wo, Random& random) {
-        const bool transmits = std::holds_alternative<DielectricTransmit>(model) || std::holds_alternative<DiffuseTransmit>(model) ||
+        const bool transmits = std::holds_alternative<DielectricTransmit>(model) ||
+                               std::holds_alternative<DiffuseTransmit>(model) ||
                                std::holds_alternative<ThinTransmit>(model);
-        const Vec3f wrong = direction(transmits ? random.between(0, 1) : random.between(-1, 0), random.between(0, 6));
+        const Vec3f wrong = direction(transmits ? random.between(0, 1) : random.between(-1, 0),
+                                      random.between(0, 6));
         EXPECT_EQ(eval(model, wo, wrong).f, kBlack);
         EXPECT_EQ(eval(model, wo, wrong).pdf, 0);
     });
@@ -246,8 +271,11 @@ TEST(Lobe, EachStaysOnItsSide) {
 
 TEST(Lobe, RoughnessZeroIsExactlyLambert) {
     const Vec3f wo = direction(0.3F, 1), wi = direction(0.7F, 2);
-    EXPECT_EQ(eval(DiffuseReflect(Color(0.2F, 0.5F, 1), 0), wo, wi).f, Color(0.2F, 0.5F, 1) * (kInvPi * wi.z));
-    EXPECT_LT(largest_difference(eval(DiffuseReflect(Color::grey(0.5F), 1e-4F), wo, wi).f, Color::grey(0.5F * kInvPi * wi.z)), 1e-4F);
+    EXPECT_EQ(eval(DiffuseReflect(Color(0.2F, 0.5F, 1), 0), wo, wi).f,
+              Color(0.2F, 0.5F, 1) * (kInvPi * wi.z));
+    EXPECT_LT(largest_difference(eval(DiffuseReflect(Color::grey(0.5F), 1e-4F), wo, wi).f,
+                                 Color::grey(0.5F * kInvPi * wi.z)),
+              1e-4F);
 }
 
 TEST(Lobe, SmoothGlassIsLossless) {
@@ -259,7 +287,9 @@ TEST(Lobe, SmoothGlassIsLossless) {
                 const DielectricReflect reflect(GgxAlpha(0), eta);
                 const DielectricTransmit transmit(GgxAlpha(0), eta);
                 const float left = 1 - reflect.albedo(wo).r;
-                EXPECT_NEAR(reflect.sample(wo, {}, 0).f.r + left * transmit.sample(wo, {}, 0).f.r, 1, 1e-6F) << ior << " " << c;
+                EXPECT_NEAR(reflect.sample(wo, {}, 0).f.r + left * transmit.sample(wo, {}, 0).f.r,
+                            1, 1e-6F)
+                    << ior << " " << c;
                 EXPECT_EQ(reflect.sample(wo, {}, 0).f.r, fresnel_dielectric(c, eta).reflectance);
             }
 }
@@ -275,7 +305,8 @@ TEST(Lobe, RoughGlassIsNearlyLossless) {
                     const DielectricReflect reflect(GgxAlpha(alpha), eta);
                     const DielectricTransmit transmit(GgxAlpha(alpha), eta);
                     const float left = 1 - reflect.albedo(wo).r;
-                    const float total = measured_albedo(reflect, wo, 80, random).r + left * measured_albedo(transmit, wo, 80, random).r;
+                    const float total = measured_albedo(reflect, wo, 80, random).r +
+                                        left * measured_albedo(transmit, wo, 80, random).r;
                     EXPECT_NEAR(total, 1, 1.5e-2F) << eta << " " << alpha << " " << c;
                 }
 }
@@ -311,7 +342,8 @@ TEST(Lobe, ThinTransmissionIsStraightWhenSmooth) {
 TEST(Lobe, SmoothLobesAreDeltas) {
     EXPECT_TRUE(delta(DielectricReflect(GgxAlpha::from_roughness(0), 1.5F)));
     EXPECT_FALSE(delta(DielectricReflect(GgxAlpha::from_roughness(0.1F), 1.5F)));
-    const ConductorReflect mirror = ConductorReflect::from_artistic(GgxAlpha(0), Color(0.9F, 0.5F, 0.1F), kWhite);
+    const ConductorReflect mirror =
+        ConductorReflect::from_artistic(GgxAlpha(0), Color(0.9F, 0.5F, 0.1F), kWhite);
     const Vec3f wo = direction(1, 0);
     EXPECT_TRUE(mirror.delta());
     EXPECT_LT(largest_difference(mirror.sample(wo, {}, 0).f, Color(0.9F, 0.5F, 0.1F)), 1e-4F);
@@ -329,8 +361,10 @@ TEST(Ggx, CosSin) {
     for (int i = 0; i <= 1000; ++i) {
         const float u = static_cast<float>(i) / 1000;
         const Vec2f v = cos_sin_2pi(u);
-        EXPECT_NEAR(static_cast<double>(v.x), std::cos(2 * 3.14159265358979 * static_cast<double>(u)), 2e-6);
-        EXPECT_NEAR(static_cast<double>(v.y), std::sin(2 * 3.14159265358979 * static_cast<double>(u)), 2e-6);
+        EXPECT_NEAR(static_cast<double>(v.x),
+                    std::cos(2 * 3.14159265358979 * static_cast<double>(u)), 2e-6);
+        EXPECT_NEAR(static_cast<double>(v.y),
+                    std::sin(2 * 3.14159265358979 * static_cast<double>(u)), 2e-6);
     }
 }
 

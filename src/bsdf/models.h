@@ -18,8 +18,9 @@
 namespace lightsieve {
 
 /// One lobe; the first alternative is the cheapest to default-construct.
-using LobeModel = std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit, ThinTransmit,
-                               ConductorReflect, SchlickReflect, SheenReflect>;
+using LobeModel =
+    std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit,
+                 ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect>;
 
 static_assert(std::is_trivially_copyable_v<LobeModel>);
 static_assert(sizeof(LobeModel) <= 64, "closures are copied at every hit");

@@ -21,7 +21,8 @@ struct SchlickCurve {
     static constexpr float kDipCos = 1.0F / 7;
 
     /// The curve from `facing` to `grazing` that has the value `at_dip` at kDipCos.
-    [[nodiscard]] static SchlickCurve through(Color facing, Color at_dip, Color grazing = kWhite) noexcept {
+    [[nodiscard]] static SchlickCurve through(Color facing, Color at_dip,
+                                              Color grazing = kWhite) noexcept {
         constexpr float m = 1 - kDipCos, m5 = m * m * m * m * m;
         return {facing, grazing, (lerp(facing, grazing, m5) - at_dip) * (1 / (kDipCos * m * m5))};
     }

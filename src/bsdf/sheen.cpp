@@ -24,14 +24,17 @@ class SheenMasking {
     }
 
   private:
-    [[nodiscard]] float fit(float x) const { return a_ / (1 + b_ * std::pow(x, c_)) + d_ * x + e_; }
+    [[nodiscard]] float fit(float x) const {
+        return a_ / (1 + b_ * std::pow(x, c_)) + d_ * x + e_;
+    }
     float a_, b_, c_, d_, e_;
 };
 
 }  // namespace
 
 SheenReflect::SheenReflect(float sheen_roughness) noexcept
-    : roughness(sheen_roughness > kMinSheenRoughness ? std::min(sheen_roughness, 1.0F) : kMinSheenRoughness) {}
+    : roughness(sheen_roughness > kMinSheenRoughness ? std::min(sheen_roughness, 1.0F)
+                                                     : kMinSheenRoughness) {}
 
 LobeEval SheenReflect::eval(Vec3f wo, Vec3f wi) const noexcept {
     if (!(wi.z > 0)) return {};
@@ -52,6 +55,8 @@ LobeSample SheenReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {
     return {wi, e.f, e.pdf};
 }
 
-Color SheenReflect::albedo(Vec3f wo) const noexcept { return Color::grey(sheen_albedo(wo.z, roughness)); }
+Color SheenReflect::albedo(Vec3f wo) const noexcept {
+    return Color::grey(sheen_albedo(wo.z, roughness));
+}
 
 }  // namespace lightsieve

@@ -6,11 +6,13 @@ namespace lightsieve {
 
 LobeEval ThinTransmit::eval(Vec3f wo, Vec3f wi) const noexcept {
     if (!(wi.z < 0) || alpha.smooth()) return {};
-    return ggx_eval_reflection(wo, {wi.x, wi.y, -wi.z}, alpha, [&](float) { return Color::grey(1 + ggx_white(wo, alpha).lost); });
+    return ggx_eval_reflection(wo, {wi.x, wi.y, -wi.z}, alpha,
+                               [&](float) { return Color::grey(1 + ggx_white(wo, alpha).lost); });
 }
 
 LobeSample ThinTransmit::sample(Vec3f wo, Vec2f u, float) const noexcept {
-    LobeSample s = ggx_sample_reflection(wo, u, alpha, [&](float) { return Color::grey(1 + ggx_white(wo, alpha).lost); });
+    LobeSample s = ggx_sample_reflection(
+        wo, u, alpha, [&](float) { return Color::grey(1 + ggx_white(wo, alpha).lost); });
     s.wi.z = -s.wi.z;
     return s;
 }

@@ -62,7 +62,9 @@ class Arena {
             ++current_;
         if (current_ < blocks_.size()) return;
         const std::size_t size = at_least > block_size_ ? at_least : block_size_;
-        blocks_.push_back({std::unique_ptr<std::byte[], AlignedDelete>(static_cast<std::byte*>(::operator new[](size, std::align_val_t{64}))), size});
+        blocks_.push_back({std::unique_ptr<std::byte[], AlignedDelete>(static_cast<std::byte*>(
+                               ::operator new[](size, std::align_val_t{64}))),
+                           size});
         current_ = blocks_.size() - 1;
     }
 

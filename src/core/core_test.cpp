@@ -13,8 +13,14 @@ namespace lightsieve {
 namespace {
 
 TEST(Diagnostics, RendersPlaceCaretAndHint) {
-    const auto source = std::make_shared<const SourceText>(SourceText{"shot.ass", "lambert\n{\n base_colour 1 0 0\n}\n"});
-    const Error error{Code::FileFormat, "no parameter \"base_colour\"", {source, 11, 11}, "did you mean \"base_color\"?", {{"node starts here", {source, 0, 7}}}, Severity::Warning};
+    const auto source = std::make_shared<const SourceText>(
+        SourceText{"shot.ass", "lambert\n{\n base_colour 1 0 0\n}\n"});
+    const Error error{Code::FileFormat,
+                      "no parameter \"base_colour\"",
+                      {source, 11, 11},
+                      "did you mean \"base_color\"?",
+                      {{"node starts here", {source, 0, 7}}},
+                      Severity::Warning};
     EXPECT_EQ(error.render(),
               "shot.ass:3:2: warning[file-format]: no parameter \"base_colour\"\n"
               "    3 |  base_colour 1 0 0\n"
@@ -36,7 +42,8 @@ TEST(Diagnostics, PlaceAtEndOfFile) {
 }
 
 TEST(Diagnostics, NearestNames) {
-    EXPECT_EQ(did_you_mean("base_colour", {"base", "base_color", "coat_color"}), "did you mean \"base_color\"?");
+    EXPECT_EQ(did_you_mean("base_colour", {"base", "base_color", "coat_color"}),
+              "did you mean \"base_color\"?");
     EXPECT_EQ(did_you_mean("zzz", {"base", "base_color"}), "");
     EXPECT_EQ(nearest_names("caot", {"coat", "sheen"}).front(), "coat");
 }
@@ -117,7 +124,11 @@ TEST(Parallel, EveryItemOnceAndErrorsArrive) {
     std::vector<int> hits(1000);
     parallel_for(1000, 2, [&](std::size_t i) { ++hits[i]; });
     EXPECT_EQ(hits, std::vector<int>(1000, 1));
-    EXPECT_THROW(parallel_for(10, 2, [](std::size_t i) { if (i == 3) throw InputError({Code::FileFormat, "x"}); }), InputError);
+    EXPECT_THROW(parallel_for(10, 2,
+                              [](std::size_t i) {
+                                  if (i == 3) throw InputError({Code::FileFormat, "x"});
+                              }),
+                 InputError);
 }
 
 }  // namespace

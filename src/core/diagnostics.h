@@ -47,8 +47,11 @@ class Diagnostics {
 };
 
 /// The candidates nearest to `word` by edit distance, best first, at most `n`; none if all are far.
-[[nodiscard]] std::vector<std::string> nearest_names(std::string_view word, const std::vector<std::string>& candidates, std::size_t n = 3);
+[[nodiscard]] std::vector<std::string> nearest_names(std::string_view word,
+                                                     const std::vector<std::string>& candidates,
+                                                     std::size_t n = 3);
 /// `did you mean "x"?` with the nearest candidates, or an empty string.
-[[nodiscard]] std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+[[nodiscard]] std::string did_you_mean(std::string_view word,
+                                       const std::vector<std::string>& candidates);
 
 }  // namespace lightsieve

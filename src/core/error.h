@@ -67,7 +67,8 @@ class InputError : public std::exception {
 };
 
 /// Prints the failed condition and asks for a report, then aborts. Never returns.
-[[noreturn]] void report_bug(const char* condition, const char* file, int line, const std::string& values);
+[[noreturn]] void report_bug(const char* condition, const char* file, int line,
+                             const std::string& values);
 
 }  // namespace lightsieve
 

@@ -61,7 +61,8 @@ Mat4f Mat4f::inverse(bool* ok) const {
 }
 
 float Mat4f::determinant3() const {
-    const Vec3f x{m[0][0], m[0][1], m[0][2]}, y{m[1][0], m[1][1], m[1][2]}, z{m[2][0], m[2][1], m[2][2]};
+    const Vec3f x{m[0][0], m[0][1], m[0][2]}, y{m[1][0], m[1][1], m[1][2]},
+        z{m[2][0], m[2][1], m[2][2]};
     return dot(x, cross(y, z));
 }
 

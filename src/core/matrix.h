@@ -10,20 +10,25 @@
 namespace lightsieve {
 
 struct Mat4f {
-    std::array<std::array<float, 4>, 4> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+    std::array<std::array<float, 4>, 4> m{
+        {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
     friend constexpr bool operator==(const Mat4f&, const Mat4f&) = default;
     friend Mat4f operator*(const Mat4f& a, const Mat4f& b);
     /// Transforms a point (affine part only; w is taken as 1).
-    [[nodiscard]] Vec3f point(Vec3f p) const { return vector(p) + Vec3f{m[3][0], m[3][1], m[3][2]}; }
+    [[nodiscard]] Vec3f point(Vec3f p) const {
+        return vector(p) + Vec3f{m[3][0], m[3][1], m[3][2]};
+    }
     /// Transforms a direction; its length changes with the scale.
     [[nodiscard]] Vec3f vector(Vec3f v) const {
-        return {v.x * m[0][0] + v.y * m[1][0] + v.z * m[2][0], v.x * m[0][1] + v.y * m[1][1] + v.z * m[2][1],
+        return {v.x * m[0][0] + v.y * m[1][0] + v.z * m[2][0],
+                v.x * m[0][1] + v.y * m[1][1] + v.z * m[2][1],
                 v.x * m[0][2] + v.y * m[1][2] + v.z * m[2][2]};
     }
     /// Transforms a normal with the inverse transpose; call on the INVERSE matrix. Not normalised.
     [[nodiscard]] Vec3f normal_by_inverse(Vec3f n) const {
-        return {n.x * m[0][0] + n.y * m[0][1] + n.z * m[0][2], n.x * m[1][0] + n.y * m[1][1] + n.z * m[1][2],
+        return {n.x * m[0][0] + n.y * m[0][1] + n.z * m[0][2],
+                n.x * m[1][0] + n.y * m[1][1] + n.z * m[1][2],
                 n.x * m[2][0] + n.y * m[2][1] + n.z * m[2][2]};
     }
     [[nodiscard]] Mat4f transposed() const;

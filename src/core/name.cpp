@@ -9,7 +9,9 @@ namespace {
 /// Lets a set of strings be searched without making a string: most names are known already.
 struct TextHash {
     using is_transparent = void;
-    std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>{}(text); }
+    std::size_t operator()(std::string_view text) const {
+        return std::hash<std::string_view>{}(text);
+    }
 };
 using NameSet = std::unordered_set<std::string, TextHash, std::equal_to<>>;
 

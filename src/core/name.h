@@ -18,7 +18,9 @@ class Name {
     Name(const char* text) : Name(std::string_view(text)) {}
     Name(const std::string& text) : Name(std::string_view(text)) {}
 
-    [[nodiscard]] std::string_view view() const { return text_ == nullptr ? std::string_view{} : std::string_view(*text_); }
+    [[nodiscard]] std::string_view view() const {
+        return text_ == nullptr ? std::string_view{} : std::string_view(*text_);
+    }
     [[nodiscard]] std::string str() const { return std::string(view()); }
     [[nodiscard]] bool empty() const { return view().empty(); }
     [[nodiscard]] const void* id() const { return text_; }
@@ -34,5 +36,7 @@ class Name {
 
 template <>
 struct std::hash<lightsieve::Name> {
-    std::size_t operator()(lightsieve::Name n) const noexcept { return std::hash<const void*>{}(n.id()); }
+    std::size_t operator()(lightsieve::Name n) const noexcept {
+        return std::hash<const void*>{}(n.id());
+    }
 };

@@ -5,15 +5,17 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
-#include <atomic>
 #include <xmmintrin.h>
+#include <atomic>
 
 namespace lightsieve {
 namespace {
 constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
 }
 
-FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero); }
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
+    _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero);
+}
 FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
 
 int hardware_threads() { return tbb::info::default_concurrency(); }
@@ -34,7 +36,8 @@ void parallel_for(std::size_t n, int n_threads, const std::function<void(std::si
     };
     if (workers == 1 || n <= 1) return work();
     // The arena alone cannot start more threads than cores were found; the control allows it (--threads 8 on 2 cores).
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(workers));
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(workers));
     tbb::task_arena arena(workers);
     arena.execute([&] {
         tbb::task_group group;

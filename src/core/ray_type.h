@@ -17,6 +17,8 @@ enum class RayType : std::uint8_t {
     Subsurface = 7,
 };
 
-[[nodiscard]] constexpr std::uint8_t ray_bit(RayType type) { return static_cast<std::uint8_t>(1U << static_cast<unsigned>(type)); }
+[[nodiscard]] constexpr std::uint8_t ray_bit(RayType type) {
+    return static_cast<std::uint8_t>(1U << static_cast<unsigned>(type));
+}
 
 }  // namespace lightsieve

@@ -49,7 +49,8 @@ Distribution1D::Distribution1D(std::span<const float> values) : cdf_(values.size
     double running = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         running += flat ? 1 : static_cast<double>(values[i]);
-        cdf_[i + 1] = static_cast<float>(running / (flat ? static_cast<double>(values.size()) : sum));
+        cdf_[i + 1] =
+            static_cast<float>(running / (flat ? static_cast<double>(values.size()) : sum));
     }
     if (!values.empty()) cdf_.back() = 1;
 }
@@ -64,10 +65,15 @@ Distribution1D::Sample Distribution1D::sample(float u) const {
     return {index, x, width * n, inside};
 }
 
-float Distribution1D::pdf(std::size_t index) const { return probability(index) * static_cast<float>(size()); }
-float Distribution1D::probability(std::size_t index) const { return cdf_[index + 1] - cdf_[index]; }
+float Distribution1D::pdf(std::size_t index) const {
+    return probability(index) * static_cast<float>(size());
+}
+float Distribution1D::probability(std::size_t index) const {
+    return cdf_[index + 1] - cdf_[index];
+}
 
-Distribution2D::Distribution2D(std::span<const float> values, std::size_t width, std::size_t height) {
+Distribution2D::Distribution2D(std::span<const float> values, std::size_t width,
+                               std::size_t height) {
     std::vector<float> sums(height);
     columns_.reserve(height);
     for (std::size_t y = 0; y < height; ++y) {
@@ -84,7 +90,10 @@ Distribution2D::Sample Distribution2D::sample(Vec2f u) const {
 }
 
 float Distribution2D::pdf(Vec2f uv) const {
-    const auto cell = [](float x, std::size_t n) { return std::min(static_cast<std::size_t>(std::max(0.0F, x) * static_cast<float>(n)), n - 1); };
+    const auto cell = [](float x, std::size_t n) {
+        return std::min(static_cast<std::size_t>(std::max(0.0F, x) * static_cast<float>(n)),
+                        n - 1);
+    };
     const std::size_t y = cell(uv.y, rows_.size());
     return rows_.pdf(y) * columns_[y].pdf(cell(uv.x, columns_[y].size()));
 }

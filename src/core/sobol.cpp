@@ -67,8 +67,9 @@ constexpr Point<Word> scrambled(Word seed, Word digits) {
     // reversed index and scrambling wants reversed digits: the reversals cancel.
     const Word index = reverse_bits(laine_karras(digits, seed));
     const Word one = Word{} + 1U;
-    return {reverse_bits(laine_karras(index, hash_combine(seed, one))),
-            reverse_bits(laine_karras(reversed_sobol_second(index), hash_combine(seed, one + 1U)))};
+    return {
+        reverse_bits(laine_karras(index, hash_combine(seed, one))),
+        reverse_bits(laine_karras(reversed_sobol_second(index), hash_combine(seed, one + 1U)))};
 }
 
 }  // namespace

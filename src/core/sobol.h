@@ -26,13 +26,17 @@ template <class Word>
 }
 
 /// A float in [0,1) from the top 24 bits.
-[[nodiscard]] constexpr float unit_float(std::uint32_t x) { return static_cast<float>(x >> 8U) * 0x1p-24F; }
+[[nodiscard]] constexpr float unit_float(std::uint32_t x) {
+    return static_cast<float>(x >> 8U) * 0x1p-24F;
+}
 
 /// The sample points of one (pixel, sample): cheap to make, no state but the counter of dimensions.
 class Sampler {
   public:
-    Sampler(std::uint32_t pixel_x, std::uint32_t pixel_y, std::uint32_t sample_index, std::uint32_t seed)
-        : pixel_(hash_combine(hash_combine(hash_combine(0x68bc21ebU, seed), pixel_x), pixel_y)), index_(sample_index) {}
+    Sampler(std::uint32_t pixel_x, std::uint32_t pixel_y, std::uint32_t sample_index,
+            std::uint32_t seed)
+        : pixel_(hash_combine(hash_combine(hash_combine(0x68bc21ebU, seed), pixel_x), pixel_y)),
+          index_(sample_index) {}
 
     /// The two-dimensional point of pair number `pair`; the same arguments always give the same point.
     [[nodiscard]] Vec2f at2(std::uint32_t pair) const;
@@ -41,7 +45,9 @@ class Sampler {
     [[nodiscard]] std::array<Vec2f, 4> at2x4(std::uint32_t pair) const;
 
     /// Independent uniform numbers for choices that need no stratification (merging terms), apart from the points.
-    [[nodiscard]] float random(std::uint32_t stream) const { return unit_float(hash_combine(hash_combine(pixel_ ^ 0xa511e9b3U, index_), stream)); }
+    [[nodiscard]] float random(std::uint32_t stream) const {
+        return unit_float(hash_combine(hash_combine(pixel_ ^ 0xa511e9b3U, index_), stream));
+    }
 
   private:
     std::uint32_t pixel_;

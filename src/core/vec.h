@@ -29,8 +29,12 @@ struct Vec3f {
     constexpr Vec3f operator-() const { return {-x, -y, -z}; }
     constexpr Vec3f& operator+=(Vec3f b) { return *this = *this + b; }
     constexpr Vec3f& operator*=(float s) { return *this = *this * s; }
-    friend constexpr Vec3f operator+(Vec3f a, Vec3f b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend constexpr Vec3f operator-(Vec3f a, Vec3f b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend constexpr Vec3f operator+(Vec3f a, Vec3f b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    friend constexpr Vec3f operator-(Vec3f a, Vec3f b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
     friend constexpr Vec3f operator*(Vec3f a, float s) { return {a.x * s, a.y * s, a.z * s}; }
     friend constexpr Vec3f operator*(float s, Vec3f a) { return a * s; }
     friend constexpr Vec3f operator/(Vec3f a, float s) { return a * (1 / s); }
@@ -38,7 +42,9 @@ struct Vec3f {
 };
 
 constexpr float dot(Vec3f a, Vec3f b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3f cross(Vec3f a, Vec3f b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+constexpr Vec3f cross(Vec3f a, Vec3f b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 constexpr float length_squared(Vec3f a) { return dot(a, a); }
 inline float length(Vec3f a) { return std::sqrt(dot(a, a)); }
 /// Unit vector; a vector of length 0 (or not finite) becomes `fallback`.
@@ -46,9 +52,15 @@ inline Vec3f normalize(Vec3f a, Vec3f fallback = {0, 0, 1}) {
     const float len = length(a);
     return len > 0 && std::isfinite(len) ? a * (1 / len) : fallback;
 }
-constexpr Vec3f min(Vec3f a, Vec3f b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-constexpr Vec3f max(Vec3f a, Vec3f b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-inline bool is_finite(Vec3f a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+constexpr Vec3f min(Vec3f a, Vec3f b) {
+    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+constexpr Vec3f max(Vec3f a, Vec3f b) {
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+inline bool is_finite(Vec3f a) {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 /// A linear colour (or throughput, or radiance) in the rendering space.
 struct Color {
@@ -62,10 +74,18 @@ struct Color {
     constexpr Color& operator+=(Color o) { return *this = *this + o; }
     constexpr Color& operator*=(Color o) { return *this = *this * o; }
     constexpr Color& operator*=(float s) { return *this = *this * s; }
-    friend constexpr Color operator+(Color a, Color b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-    friend constexpr Color operator-(Color a, Color b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
-    friend constexpr Color operator*(Color a, Color b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-    friend constexpr Color operator/(Color a, Color b) { return {a.r / b.r, a.g / b.g, a.b / b.b}; }
+    friend constexpr Color operator+(Color a, Color b) {
+        return {a.r + b.r, a.g + b.g, a.b + b.b};
+    }
+    friend constexpr Color operator-(Color a, Color b) {
+        return {a.r - b.r, a.g - b.g, a.b - b.b};
+    }
+    friend constexpr Color operator*(Color a, Color b) {
+        return {a.r * b.r, a.g * b.g, a.b * b.b};
+    }
+    friend constexpr Color operator/(Color a, Color b) {
+        return {a.r / b.r, a.g / b.g, a.b / b.b};
+    }
     friend constexpr Color operator*(Color a, float s) { return {a.r * s, a.g * s, a.b * s}; }
     friend constexpr Color operator*(float s, Color a) { return a * s; }
     friend constexpr bool operator==(Color, Color) = default;
@@ -77,10 +97,16 @@ inline constexpr Color kWhite{1, 1, 1};
 constexpr bool is_black(Color c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 constexpr float max_component(Color c) { return std::max(c.r, std::max(c.g, c.b)); }
 constexpr float average(Color c) { return (c.r + c.g + c.b) * (1.0F / 3); }
-inline bool is_finite(Color c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
+inline bool is_finite(Color c) {
+    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+}
 /// Relative luminance of an ACEScg colour (the Y row of AP1 to XYZ).
-constexpr float luminance(Color c) { return 0.27222872F * c.r + 0.67408177F * c.g + 0.05368952F * c.b; }
-constexpr Color clamp(Color c, float low, float high) { return {std::clamp(c.r, low, high), std::clamp(c.g, low, high), std::clamp(c.b, low, high)}; }
+constexpr float luminance(Color c) {
+    return 0.27222872F * c.r + 0.67408177F * c.g + 0.05368952F * c.b;
+}
+constexpr Color clamp(Color c, float low, float high) {
+    return {std::clamp(c.r, low, high), std::clamp(c.g, low, high), std::clamp(c.b, low, high)};
+}
 constexpr float lerp(float a, float b, float t) { return a + (b - a) * t; }
 constexpr Color lerp(Color a, Color b, float t) { return a + (b - a) * t; }
 constexpr float square(float x) { return x * x; }
@@ -102,7 +128,8 @@ struct Frame {
         const float sign = std::copysign(1.0F, n.z);
         const float a = -1 / (sign + n.z);
         const float b = n.x * n.y * a;
-        return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+        return {
+            {1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
     }
     /// The frame around unit vector n whose x axis is as near as possible to `tangent`.
     static Frame from_z_x(Vec3f n, Vec3f tangent) {
@@ -111,7 +138,9 @@ struct Frame {
         const Vec3f x = normalize(t);
         return {x, cross(n, x), n};
     }
-    [[nodiscard]] Vec3f local_from_world(Vec3f v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+    [[nodiscard]] Vec3f local_from_world(Vec3f v) const {
+        return {dot(v, x), dot(v, y), dot(v, z)};
+    }
     [[nodiscard]] Vec3f world_from_local(Vec3f v) const { return x * v.x + y * v.y + z * v.z; }
 };
 

@@ -24,8 +24,12 @@ using ScenePtr = std::unique_ptr<RTCSceneTy, SceneRelease>;
 
 [[noreturn]] void fail(RTCDevice device, const char* doing) {
     const RTCError code = rtcGetDeviceError(device);
-    const char* why = code == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory" : "the ray library refused";
-    throw InputError({Code::LimitMemory, std::string(why) + " while " + doing, {}, "fewer or simpler shapes, or a machine with more memory"});
+    const char* why =
+        code == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory" : "the ray library refused";
+    throw InputError({Code::LimitMemory,
+                      std::string(why) + " while " + doing,
+                      {},
+                      "fewer or simpler shapes, or a machine with more memory"});
 }
 
 /// The placement at an arbitrary point of the shutter.
@@ -49,8 +53,10 @@ float even_scale(const Mat4f& m) {
     constexpr float kTolerance = 1e-5F;
     const Vec3f x = m.vector({1, 0, 0}), y = m.vector({0, 1, 0}), z = m.vector({0, 0, 1});
     const float squared = length_squared(x), most = kTolerance * squared;
-    const bool even = std::abs(length_squared(y) - squared) <= most && std::abs(length_squared(z) - squared) <= most &&
-                      std::abs(dot(x, y)) <= most && std::abs(dot(y, z)) <= most && std::abs(dot(z, x)) <= most;
+    const bool even = std::abs(length_squared(y) - squared) <= most &&
+                      std::abs(length_squared(z) - squared) <= most &&
+                      std::abs(dot(x, y)) <= most && std::abs(dot(y, z)) <= most &&
+                      std::abs(dot(z, x)) <= most;
     return even ? std::sqrt(squared) : 0;
 }
 
@@ -59,24 +65,30 @@ constexpr std::size_t kMaxKeys = RTC_MAX_TIME_STEP_COUNT;
 /// Makes one Embree geometry; positions are transformed by `placement` (identity inside an instanced scene).
 class GeometryMaker {
   public:
-    GeometryMaker(RTCDevice device, std::span<const Mat4f> placement) : device_(device), placement_(placement) {}
+    GeometryMaker(RTCDevice device, std::span<const Mat4f> placement)
+        : device_(device), placement_(placement) {}
 
     RTCGeometry operator()(const TriangleMesh& mesh) const {
         RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        const std::size_t n_keys = std::min(kMaxKeys, std::max(mesh.positions.size(), placement_.size()));
+        const std::size_t n_keys =
+            std::min(kMaxKeys, std::max(mesh.positions.size(), placement_.size()));
         rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(n_keys));
         const std::size_t n = mesh.positions[0].size();
         for (std::size_t k = 0; k < n_keys; ++k) {
-            auto* out = static_cast<float*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(k), RTC_FORMAT_FLOAT3, 3 * sizeof(float), n));
+            auto* out = static_cast<float*>(
+                rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(k),
+                                        RTC_FORMAT_FLOAT3, 3 * sizeof(float), n));
             if (out == nullptr) fail(device_, "storing a mesh");
-            const float time = n_keys == 1 ? 0 : static_cast<float>(k) / static_cast<float>(n_keys - 1);
+            const float time =
+                n_keys == 1 ? 0 : static_cast<float>(k) / static_cast<float>(n_keys - 1);
             const Mat4f to_world = placement_at(placement_, time);
             for (std::size_t i = 0; i < n; ++i) {
                 const Vec3f p = to_world.point(position_at(mesh.positions, i, time));
                 std::memcpy(out + 3 * i, &p, sizeof(p));
             }
         }
-        auto* index = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
+        auto* index = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                              3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
         if (index == nullptr) fail(device_, "storing a mesh");
         std::memcpy(index, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t));
         return g;
@@ -88,11 +100,14 @@ class GeometryMaker {
         rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(n_keys));
         const std::size_t n = spheres.radii.size();
         for (std::size_t k = 0; k < n_keys; ++k) {
-            auto* out = static_cast<float*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(k), RTC_FORMAT_FLOAT4, 4 * sizeof(float), n));
+            auto* out = static_cast<float*>(
+                rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(k),
+                                        RTC_FORMAT_FLOAT4, 4 * sizeof(float), n));
             if (out == nullptr) fail(device_, "storing spheres");
             for (std::size_t i = 0; i < n; ++i) {
                 const Vec3f c = placement_[0].point(spheres.centers[k][i]);
-                const std::array<float, 4> v{c.x, c.y, c.z, spheres.radii[i] * even_scale(placement_[0])};
+                const std::array<float, 4> v{c.x, c.y, c.z,
+                                             spheres.radii[i] * even_scale(placement_[0])};
                 std::memcpy(out + 4 * i, v.data(), sizeof(v));
             }
         }
@@ -106,7 +121,8 @@ class GeometryMaker {
 
 /// Spheres that a transform moves or squashes stay in object space.
 bool must_instance(const AccelObject& object) {
-    return std::holds_alternative<SphereList>(object.geometry->data) && (object.world_from_object.size() > 1 || even_scale(object.world_from_object[0]) == 0);
+    return std::holds_alternative<SphereList>(object.geometry->data) &&
+           (object.world_from_object.size() > 1 || even_scale(object.world_from_object[0]) == 0);
 }
 
 /// Bounds of a placed geometry over the whole shutter.
@@ -115,7 +131,10 @@ Box3f bounds_of(const AccelObject& object) {
     const auto grow = [&](Vec3f p, float radius) {
         for (const Mat4f& m : object.world_from_object) {
             // Half the edges of the box of a transformed ball.
-            const auto reach = [&](int i) { return radius * length(Vec3f{m.vector({1, 0, 0})[i], m.vector({0, 1, 0})[i], m.vector({0, 0, 1})[i]}); };
+            const auto reach = [&](int i) {
+                return radius * length(Vec3f{m.vector({1, 0, 0})[i], m.vector({0, 1, 0})[i],
+                                             m.vector({0, 0, 1})[i]});
+            };
             const Vec3f center = m.point(p), half{reach(0), reach(1), reach(2)};
             out.grow(center - half);
             out.grow(center + half);
@@ -151,7 +170,8 @@ class Boxes {
         for (const Four& f : fours_) {
             Float4 near = all(ray.t_min), far = all(ray.t_max);
             for (int axis = 0; axis < 3; ++axis) {
-                const Float4 a = (f.lower[axis] - ray.origin[axis]) * inverse[axis], b = (f.upper[axis] - ray.origin[axis]) * inverse[axis];
+                const Float4 a = (f.lower[axis] - ray.origin[axis]) * inverse[axis],
+                             b = (f.upper[axis] - ray.origin[axis]) * inverse[axis];
                 // Rays within a wall give nan: they pass beside what is in the box, which has room on all sides.
                 const Float4 first = a < b ? a : b, last = a < b ? b : a;
                 near = first > near ? first : near;
@@ -183,7 +203,9 @@ class Boxes {
                 fours_.back().upper[axis][lane] = box.upper[axis] + room;
             }
     }
-    static float max_abs(Vec3f v) { return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z))); }
+    static float max_abs(Vec3f v) {
+        return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
+    }
 
     std::vector<Four> fours_;
     std::size_t n_ = 0;
@@ -212,11 +234,12 @@ constexpr std::uint32_t kAllBits = 0xffffffffU;
 
 struct Accel::State {
     DevicePtr device;
-    std::map<const ShapeGeometry*, ScenePtr> shared;  ///< geometries that are placed more than once
+    std::map<const ShapeGeometry*, ScenePtr>
+        shared;  ///< geometries that are placed more than once
     ScenePtr top;
-    std::vector<std::uint32_t> object_of;             ///< by id of a top-level geometry
-    std::vector<bool> is_instance;                    ///< by id of a top-level geometry
-    std::optional<Boxes> boxes;                       ///< around objects that most rays miss
+    std::vector<std::uint32_t> object_of;  ///< by id of a top-level geometry
+    std::vector<bool> is_instance;         ///< by id of a top-level geometry
+    std::optional<Boxes> boxes;            ///< around objects that most rays miss
     bool empty = true;
 
     ScenePtr new_scene() const {
@@ -228,8 +251,12 @@ struct Accel::State {
     void commit(RTCScene scene) const {
         rtcCommitScene(scene);
         if (const RTCError code = rtcGetDeviceError(device.get()); code != RTC_ERROR_NONE) {
-            const char* why = code == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory" : "the ray library refused";
-            throw InputError({Code::LimitMemory, std::string(why) + " while building the acceleration structure", {}, "fewer or simpler shapes, or a machine with more memory"});
+            const char* why =
+                code == RTC_ERROR_OUT_OF_MEMORY ? "not enough memory" : "the ray library refused";
+            throw InputError({Code::LimitMemory,
+                              std::string(why) + " while building the acceleration structure",
+                              {},
+                              "fewer or simpler shapes, or a machine with more memory"});
         }
     }
     /// Hands the geometry over to `scene`.
@@ -245,7 +272,8 @@ struct Accel::State {
         if (!scene) {
             scene = new_scene();
             const std::vector<Mat4f> identity(1);
-            attach(scene.get(), std::visit(GeometryMaker(device.get(), identity), geometry->data), kAllBits);
+            attach(scene.get(), std::visit(GeometryMaker(device.get(), identity), geometry->data),
+                   kAllBits);
             commit(scene.get());
         }
         return scene.get();
@@ -257,7 +285,8 @@ struct Accel::State {
         rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(n_keys));
         for (std::size_t k = 0; k < n_keys; ++k)
             // Rows of a row-vector matrix are the columns of Embree's.
-            rtcSetGeometryTransform(g, static_cast<unsigned>(k), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, object.world_from_object[k].m.data());
+            rtcSetGeometryTransform(g, static_cast<unsigned>(k), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                                    object.world_from_object[k].m.data());
         remember(attach(top.get(), g, object.mask), index, true);
     }
     void remember(unsigned id, std::uint32_t index, bool instance) {
@@ -270,13 +299,18 @@ struct Accel::State {
     }
 };
 
-Accel::Accel(std::span<const AccelObject> objects, const std::string& isa, bool sparse) : state_(std::make_unique<State>()) {
+Accel::Accel(std::span<const AccelObject> objects, const std::string& isa, bool sparse)
+    : state_(std::make_unique<State>()) {
     State& s = *state_;
     if (sparse) s.boxes.emplace(objects);
     // Flush-to-zero is set by our own threads (core/parallel).
     const std::string config = isa.empty() ? std::string() : "isa=" + isa;
     s.device.reset(rtcNewDevice(config.empty() ? nullptr : config.c_str()));
-    if (!s.device) throw InputError({Code::LimitMemory, "the ray library cannot be started with instruction set \"" + isa + "\"", {}, "sse2, avx2 and avx512 are known; the processor must have it"});
+    if (!s.device)
+        throw InputError({Code::LimitMemory,
+                          "the ray library cannot be started with instruction set \"" + isa + "\"",
+                          {},
+                          "sse2, avx2 and avx512 are known; the processor must have it"});
     s.top = s.new_scene();
     std::map<const ShapeGeometry*, int> uses;
     for (const AccelObject& object : objects)
@@ -289,7 +323,8 @@ Accel::Accel(std::span<const AccelObject> objects, const std::string& isa, bool 
         if (uses[object.geometry] > 1 || must_instance(object)) {
             s.add_instance(index, object);
         } else {
-            RTCGeometry g = std::visit(GeometryMaker(s.device.get(), object.world_from_object), object.geometry->data);
+            RTCGeometry g = std::visit(GeometryMaker(s.device.get(), object.world_from_object),
+                                       object.geometry->data);
             s.remember(State::attach(s.top.get(), g, object.mask), index, false);
         }
     }
@@ -308,7 +343,8 @@ bool Accel::intersect(const Ray& ray, std::uint32_t mask, RayHit& hit) const noe
     r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_->top.get(), &context, &r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    const unsigned id = r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID ? r.hit.instID[0] : r.hit.geomID;
+    const unsigned id =
+        r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID ? r.hit.instID[0] : r.hit.geomID;
     hit = {r.ray.tfar, state_->object_of[id], r.hit.primID, {r.hit.u, r.hit.v}};
     return true;
 }

@@ -19,11 +19,15 @@ std::vector<std::string> all_builtins() {
     return out;
 }
 
-const std::vector<std::string> kWholes{"diffuse", "specular", "coat", "sheen", "transmission", "sss", "volume"};
+const std::vector<std::string> kWholes{"diffuse",      "specular", "coat",  "sheen",
+                                       "transmission", "sss",      "volume"};
 /// What a group suffix may follow.
-const std::vector<std::string> kGrouped{"RGBA", "diffuse", "specular", "coat", "transmission", "sss", "emission", "background", "direct", "indirect"};
+const std::vector<std::string> kGrouped{"RGBA", "diffuse",  "specular",   "coat",   "transmission",
+                                        "sss",  "emission", "background", "direct", "indirect"};
 
-std::vector<std::string> names(const std::vector<std::string_view>& views) { return {views.begin(), views.end()}; }
+std::vector<std::string> names(const std::vector<std::string_view>& views) {
+    return {views.begin(), views.end()};
+}
 
 /// Everything the laws speak of, of one scene, rendered once.
 const Picture& picture_of(const std::string& scene) {
@@ -32,7 +36,9 @@ const Picture& picture_of(const std::string& scene) {
     std::vector<std::string> aovs = all_builtins();
     for (const std::string& whole : kGrouped)
         aovs.push_back(whole + "_*");
-    return known.emplace(scene, render(TestScene(scene_file(scene), in_memory(aovs), {"caustics"}))).first->second;
+    return known
+        .emplace(scene, render(TestScene(scene_file(scene), in_memory(aovs), {"caustics"})))
+        .first->second;
 }
 
 class AovLaws : public ::testing::TestWithParam<const char*> {
@@ -68,7 +74,8 @@ TEST_P(AovLaws, SheenIsAPartOfSpecular) {
     std::size_t n_bright = 0;
     for (std::size_t i = 0; i < picture().n_pixels(); ++i)
         for (int c = 0; c < 3; ++c) {
-            const float sheen = picture().color("sheen", i)[c], specular = picture().color("specular", i)[c];
+            const float sheen = picture().color("sheen", i)[c],
+                        specular = picture().color("specular", i)[c];
             EXPECT_LE(sheen, specular * 1.00001F);
             n_bright += sheen > 0 ? 1 : 0;
         }
@@ -81,7 +88,8 @@ TEST_P(AovLaws, WhatNothingMakesIsExactlyBlack) {
 }
 
 TEST_P(AovLaws, AlphaIsTheBeautysEverywhere) {
-    const TestScene scene(scene_file(GetParam()), in_memory({"diffuse RGBA", "specular_* RGBA"}), {"caustics"});
+    const TestScene scene(scene_file(GetParam()), in_memory({"diffuse RGBA", "specular_* RGBA"}),
+                          {"caustics"});
     const Picture rgba = render(scene);
     for (const FrameLayer& l : rgba.result().layers) {
         ASSERT_EQ(l.info.n_channels, 4U) << l.info.name;
@@ -94,10 +102,12 @@ TEST(AovLawsOfScenes, TheScenesLightEveryAov) {
     // Laws about nothing but zeros prove nothing.
     for (const std::string& name : all_builtins()) {
         if (name.starts_with("volume")) continue;
-        const bool lit = check_lit(picture_of("laws_lobes.ass"), name) || check_lit(picture_of("laws_room.ass"), name);
+        const bool lit = check_lit(picture_of("laws_lobes.ass"), name) ||
+                         check_lit(picture_of("laws_room.ass"), name);
         EXPECT_TRUE(lit) << name;
     }
-    for (const char* layer : {"RGBA_key", "RGBA_fill", "RGBA_sky", "RGBA_default", "diffuse_key", "specular_sky", "coat_fill", "background_sky", "emission_default"})
+    for (const char* layer : {"RGBA_key", "RGBA_fill", "RGBA_sky", "RGBA_default", "diffuse_key",
+                              "specular_sky", "coat_fill", "background_sky", "emission_default"})
         EXPECT_TRUE(check_lit(picture_of("laws_lobes.ass"), layer));
 }
 
@@ -108,15 +118,30 @@ TEST(AovLawsOfScenes, Arnold7TableAddsSheen) {
     for (const auto& set : lpe::additive_sets(lpe::BuiltinTable::Arnold7))
         EXPECT_TRUE(check_sum(picture, "RGBA", names(set)));
     EXPECT_TRUE(check_sum(picture_of("laws_lobes.ass"), "specular", {"specular", "volume"}));
-    EXPECT_FALSE(check_sum(picture, "RGBA", {"diffuse", "specular", "coat", "transmission", "sss", "volume", "emission", "background"})) << "sheen is missing, the check must notice";
+    EXPECT_FALSE(check_sum(picture, "RGBA",
+                           {"diffuse", "specular", "coat", "transmission", "sss", "volume",
+                            "emission", "background"}))
+        << "sheen is missing, the check must notice";
     EXPECT_TRUE(check_lit(picture, "sheen"));
 }
 
 TEST(AovLawsOfScenes, ExpressionsThatPartitionAnythingAddUp) {
     // Custom partitions, proved by the engine first, then seen in pixels.
-    const std::vector<std::string> lpes{"first_d C<RD>.*", "first_s C<RS>.*", "first_t C<T.>.*", "rest C[LOB]", "seen_by_mirror C[S]+<RD>.*", "whole C.*", "last_l C.*L", "last_o C.*O", "last_b C.*B",
-                                        "short C.?[LOB]", "long C..+[LOB]", "coat_anywhere C.*'coat'.*", "coat_nowhere C[^'coat']*"};
-    const Picture picture = render(TestScene(scene_file("laws_lobes.ass"), in_memory({}, lpes), {"caustics"}));
+    const std::vector<std::string> lpes{"first_d C<RD>.*",
+                                        "first_s C<RS>.*",
+                                        "first_t C<T.>.*",
+                                        "rest C[LOB]",
+                                        "seen_by_mirror C[S]+<RD>.*",
+                                        "whole C.*",
+                                        "last_l C.*L",
+                                        "last_o C.*O",
+                                        "last_b C.*B",
+                                        "short C.?[LOB]",
+                                        "long C..+[LOB]",
+                                        "coat_anywhere C.*'coat'.*",
+                                        "coat_nowhere C[^'coat']*"};
+    const Picture picture =
+        render(TestScene(scene_file("laws_lobes.ass"), in_memory({}, lpes), {"caustics"}));
     EXPECT_TRUE(check_sum(picture, "RGBA", {"first_d", "first_s", "first_t", "rest"}));
     EXPECT_TRUE(check_sum(picture, "RGBA", {"last_l", "last_o", "last_b"}));
     EXPECT_TRUE(check_sum(picture, "RGBA", {"short", "long"}));
@@ -130,8 +155,12 @@ TEST(AovLawsOfScenes, ExpressionsThatPartitionAnythingAddUp) {
 
 /// A plane of one shader under a quad light and a dome, seen by a camera above; no indirect light.
 std::string plane_scene(std::string_view shader, std::string_view options = "") {
-    return frame_text(12, 12, 2, persp_camera({0, 3, 3}, {0, 0, 0}, 40), options) + std::string(shader) + floor("plane", 0, 2, "surface") +
-           node("quad_light", "key", " vertices 4 1 VECTOR -1 3 -1  1 3 -1  1 3 1  -1 3 1\n intensity 20\n transmission 1\n aov \"key\"") + node("skydome_light", "sky", " intensity 0.3\n aov \"sky\"");
+    return frame_text(12, 12, 2, persp_camera({0, 3, 3}, {0, 0, 0}, 40), options) +
+           std::string(shader) + floor("plane", 0, 2, "surface") +
+           node("quad_light", "key",
+                " vertices 4 1 VECTOR -1 3 -1  1 3 -1  1 3 1  -1 3 1\n intensity 20\n "
+                "transmission 1\n aov \"key\"") +
+           node("skydome_light", "sky", " intensity 0.3\n aov \"sky\"");
 }
 
 struct OneLobe {
@@ -141,11 +170,16 @@ struct OneLobe {
 
 class SingleLobe : public ::testing::TestWithParam<OneLobe> {};
 
-INSTANTIATE_TEST_SUITE_P(Lobes, SingleLobe,
-                         ::testing::Values(OneLobe{"specular 0", "diffuse"}, OneLobe{"base 0\n specular_roughness 0.4", "specular"}, OneLobe{"metalness 1\n specular_roughness 0.3\n base_color 0.9 0.6 0.3", "specular"},
-                                           OneLobe{"base 0\n specular 0\n coat 1\n coat_roughness 0.3", "coat"}, OneLobe{"base 0\n specular 0\n sheen 1", "sheen"},
-                                           OneLobe{"base 0\n specular 0\n thin_walled on\n transmission 1\n specular_roughness 0.5", "transmission"},
-                                           OneLobe{"base 0\n specular 0\n thin_walled on\n subsurface 1", "sss"}));
+INSTANTIATE_TEST_SUITE_P(
+    Lobes, SingleLobe,
+    ::testing::Values(
+        OneLobe{"specular 0", "diffuse"}, OneLobe{"base 0\n specular_roughness 0.4", "specular"},
+        OneLobe{"metalness 1\n specular_roughness 0.3\n base_color 0.9 0.6 0.3", "specular"},
+        OneLobe{"base 0\n specular 0\n coat 1\n coat_roughness 0.3", "coat"},
+        OneLobe{"base 0\n specular 0\n sheen 1", "sheen"},
+        OneLobe{"base 0\n specular 0\n thin_walled on\n transmission 1\n specular_roughness 0.5",
+                "transmission"},
+        OneLobe{"base 0\n specular 0\n thin_walled on\n subsurface 1", "sss"}));
 
 TEST_P(SingleLobe, GivesAllItsLightToItsAovAndNoneToOthers) {
     const std::string shader = node("standard_surface", "surface", GetParam().shader);
@@ -166,8 +200,10 @@ TEST_P(SingleLobe, GivesAllItsLightToItsAovAndNoneToOthers) {
 
 TEST(AovLawsOfScenes, ALightIsDirectByWhicheverStrategyItIsFound) {
     // A convex object and no depth: all light is direct, also what rays found that left by a lobe.
-    const std::string shader = node("standard_surface", "surface", " specular_roughness 0.05\n base_color 0.5 0.5 0.5");
-    const std::string emitter = node("flat", "glow", " color 0 0 0") + sphere("dark", {0, 8, 0}, 0.1F, "glow");
+    const std::string shader =
+        node("standard_surface", "surface", " specular_roughness 0.05\n base_color 0.5 0.5 0.5");
+    const std::string emitter =
+        node("flat", "glow", " color 0 0 0") + sphere("dark", {0, 8, 0}, 0.1F, "glow");
     const Picture picture = render(plane_scene(shader) + emitter, in_memory(all_builtins()));
     EXPECT_TRUE(check_black(picture, "indirect"));
     EXPECT_TRUE(check_equal(picture, "specular", picture, "specular_direct"));
@@ -176,18 +212,22 @@ TEST(AovLawsOfScenes, ALightIsDirectByWhicheverStrategyItIsFound) {
 
 // Names, types, tables ---------------------------------------------------------------------------------------------------
 
-const char* const kPlaneShader = "standard_surface\n{\n name surface\n specular_roughness 0.3\n coat 0.5\n}\n";
+const char* const kPlaneShader =
+    "standard_surface\n{\n name surface\n specular_roughness 0.3\n coat 0.5\n}\n";
 
 TEST(AovNames, CustomExpressionReplacesABuiltin) {
-    const std::string text = plane_scene(kPlaneShader, " light_path_expressions 2 1 STRING \"diffuse C<RS>.*\" \"mine C<RD>.*\"");
+    const std::string text = plane_scene(
+        kPlaneShader, " light_path_expressions 2 1 STRING \"diffuse C<RS>.*\" \"mine C<RD>.*\"");
     const Picture picture = render(text, in_memory({"diffuse", "mine"}));
-    const Picture plain = render(plane_scene(kPlaneShader), in_memory({"diffuse", "specular", "coat"}));
+    const Picture plain =
+        render(plane_scene(kPlaneShader), in_memory({"diffuse", "specular", "coat"}));
     EXPECT_TRUE(check_identical(picture, "mine", plain, "diffuse"));
     EXPECT_TRUE(check_sum(plain, "specular", {"specular"}));
     const std::vector<std::string> both{"specular", "coat"};
     for (std::size_t i = 0; i < picture.n_pixels(); ++i)
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(picture.color("diffuse", i)[c], plain.color("specular", i)[c] + plain.color("coat", i)[c], 1e-5F);
+            EXPECT_NEAR(picture.color("diffuse", i)[c],
+                        plain.color("specular", i)[c] + plain.color("coat", i)[c], 1e-5F);
     EXPECT_TRUE(check_lit(picture, "diffuse"));
 }
 
@@ -198,8 +238,14 @@ TEST(AovNames, BeautyCanBeReplacedToo) {
 }
 
 TEST(AovNames, GroupsByNameWildcardAndDefault) {
-    const std::string lamp = node("point_light", "lamp", " position 1 1 1\n intensity 2") + node("flat", "glow", " color 0.5 1 0.2") + sphere("lit", {-1, 0.5F, 0}, 0.3F, "glow");
-    const Picture picture = render(plane_scene(kPlaneShader) + lamp, in_memory({"diffuse", "diffuse_key", "diffuse_default", "emission", "emission_default", "RGBA_*"}, {"by_label C<RD><L.'key'>", "direct_key C<RD>'key'"}));
+    const std::string lamp = node("point_light", "lamp", " position 1 1 1\n intensity 2") +
+                             node("flat", "glow", " color 0.5 1 0.2") +
+                             sphere("lit", {-1, 0.5F, 0}, 0.3F, "glow");
+    const Picture picture =
+        render(plane_scene(kPlaneShader) + lamp,
+               in_memory({"diffuse", "diffuse_key", "diffuse_default", "emission",
+                          "emission_default", "RGBA_*"},
+                         {"by_label C<RD><L.'key'>", "direct_key C<RD>'key'"}));
     EXPECT_TRUE(check_equal(picture, "diffuse_key", picture, "by_label"));
     EXPECT_TRUE(check_equal(picture, "diffuse_key", picture, "direct_key"));
     EXPECT_TRUE(check_sum(picture, "RGBA", {"RGBA_key", "RGBA_sky", "RGBA_default"}));
@@ -211,7 +257,8 @@ TEST(AovNames, GroupsByNameWildcardAndDefault) {
 }
 
 TEST(AovNames, FloatIsLuminance) {
-    const Picture picture = render(plane_scene(kPlaneShader), in_memory({"diffuse", "specular FLOAT"}, {}));
+    const Picture picture =
+        render(plane_scene(kPlaneShader), in_memory({"diffuse", "specular FLOAT"}, {}));
     const Picture colors = render(plane_scene(kPlaneShader), in_memory({"specular"}));
     for (std::size_t i = 0; i < picture.n_pixels(); ++i)
         EXPECT_FLOAT_EQ(picture.color("specular", i).r, luminance(colors.color("specular", i)));
@@ -228,32 +275,48 @@ TEST(AovNames, EmptyOrForeignGroupIsBlackWithAWarning) {
 
 TEST(Albedo, DiffuseOverAlbedoIsTheLightingWithoutTexture) {
     // Under an even dome of radiance 1 an open plane receives the same everywhere: the texture must vanish.
-    const std::string text = frame_text(24, 16, 3, persp_camera({0, 2, 3}, {0, 0, 0}, 50)) + node("checkerboard", "checks", " color1 0.9 0.5 0.2\n color2 0.1 0.2 0.7\n u_frequency 5\n v_frequency 5") +
-                             node("lambert", "surface", " Kd 1\n Kd_color checks") + floor("plane", 0, 50, "surface") + node("skydome_light", "sky", " color 1 0.5 2");
-    const Picture picture = render(text, in_memory({"diffuse", "diffuse_albedo", "albedo", "denoise_albedo"}));
+    const std::string text =
+        frame_text(24, 16, 3, persp_camera({0, 2, 3}, {0, 0, 0}, 50)) +
+        node("checkerboard", "checks",
+             " color1 0.9 0.5 0.2\n color2 0.1 0.2 0.7\n u_frequency 5\n v_frequency 5") +
+        node("lambert", "surface", " Kd 1\n Kd_color checks") + floor("plane", 0, 50, "surface") +
+        node("skydome_light", "sky", " color 1 0.5 2");
+    const Picture picture =
+        render(text, in_memory({"diffuse", "diffuse_albedo", "albedo", "denoise_albedo"}));
     const Color light(1, 0.5F, 2);
     // Cells of both colours alike: 2 times 3 comparisons, a false alarm in 25000 seeds.
     std::array<std::array<std::vector<double>, 3>, 2> ratios;
     for (std::size_t i = 0; i < picture.n_pixels(); ++i) {
         if (picture.alpha("RGBA", i) < 1) continue;
-        const Color albedo = picture.color("diffuse_albedo", i), diffuse = picture.color("diffuse", i);
+        const Color albedo = picture.color("diffuse_albedo", i),
+                    diffuse = picture.color("diffuse", i);
         for (std::size_t c = 0; c < 3; ++c)
-            ratios[albedo.r > 0.5F ? 1 : 0][c].push_back(static_cast<double>(diffuse[static_cast<int>(c)] / albedo[static_cast<int>(c)]));
+            ratios[albedo.r > 0.5F ? 1 : 0][c].push_back(
+                static_cast<double>(diffuse[static_cast<int>(c)] / albedo[static_cast<int>(c)]));
     }
     for (std::size_t cell : {0U, 1U})
         for (std::size_t c = 0; c < 3; ++c) {
             ASSERT_GT(ratios[cell][c].size(), 60U) << "the texture must show in the albedo";
-            EXPECT_TRUE(check_mean_of(ratios[cell][c], static_cast<double>(light[static_cast<int>(c)]), cell == 0 ? "dark cells" : "bright cells"));
+            EXPECT_TRUE(check_mean_of(ratios[cell][c],
+                                      static_cast<double>(light[static_cast<int>(c)]),
+                                      cell == 0 ? "dark cells" : "bright cells"));
         }
     EXPECT_TRUE(check_equal(picture, "diffuse_albedo", picture, "albedo"));
     EXPECT_TRUE(check_equal(picture, "diffuse_albedo", picture, "denoise_albedo"));
 }
 
 TEST(Albedo, ProbesSeeThroughGlassAndNeverEnterLight) {
-    const std::string text = frame_text(8, 8, 2, ortho_camera({0, 4, 0}, {0, 0, 0}, 1, {0, 0, 1})) + node("lambert", "ground", " Kd 0.5\n Kd_color 1 0.8 0.6") + floor("plane", 0, 5, "ground") +
-                             node("standard_surface", "glass", " base 0\n specular 0\n thin_walled on\n transmission 1\n transmission_color 0.5 0.5 1\n specular_roughness 0") + floor("pane", 1, 5, "glass");
+    const std::string text =
+        frame_text(8, 8, 2, ortho_camera({0, 4, 0}, {0, 0, 0}, 1, {0, 0, 1})) +
+        node("lambert", "ground", " Kd 0.5\n Kd_color 1 0.8 0.6") +
+        floor("plane", 0, 5, "ground") +
+        node("standard_surface", "glass",
+             " base 0\n specular 0\n thin_walled on\n transmission 1\n transmission_color 0.5 0.5 "
+             "1\n specular_roughness 0") +
+        floor("pane", 1, 5, "glass");
     // Not one light: radiance is exactly 0 while probes are not.
-    const Picture picture = render(text, in_memory({"direct", "indirect", "transmission_albedo"}, {"through C<TS>+<RD>A"}));
+    const Picture picture = render(
+        text, in_memory({"direct", "indirect", "transmission_albedo"}, {"through C<TS>+<RD>A"}));
     EXPECT_TRUE(check_black(picture, "RGBA"));
     EXPECT_TRUE(check_constant(picture, "transmission_albedo", {0.5F, 0.5F, 1}, 1e-5));
     EXPECT_TRUE(check_constant(picture, "through", {0.25F, 0.2F, 0.3F}, 1e-5));
@@ -261,11 +324,14 @@ TEST(Albedo, ProbesSeeThroughGlassAndNeverEnterLight) {
 
 TEST(Albedo, ProbesAreNotClamped) {
     const std::string clamped = " AA_sample_clamp 0.05\n indirect_sample_clamp 0.05";
-    const Picture with = render(plane_scene(kPlaneShader, clamped), in_memory({"albedo", "diffuse_albedo", "diffuse"}));
-    const Picture without = render(plane_scene(kPlaneShader), in_memory({"albedo", "diffuse_albedo", "diffuse"}));
+    const Picture with = render(plane_scene(kPlaneShader, clamped),
+                                in_memory({"albedo", "diffuse_albedo", "diffuse"}));
+    const Picture without =
+        render(plane_scene(kPlaneShader), in_memory({"albedo", "diffuse_albedo", "diffuse"}));
     EXPECT_TRUE(check_identical(with, "albedo", without, "albedo"));
     EXPECT_TRUE(check_identical(with, "diffuse_albedo", without, "diffuse_albedo"));
-    EXPECT_FALSE(check_identical(with, "diffuse", without, "diffuse")) << "the clamp must have acted";
+    EXPECT_FALSE(check_identical(with, "diffuse", without, "diffuse"))
+        << "the clamp must have acted";
 }
 
 // Clamping ---------------------------------------------------------------------------------------------------------------
@@ -273,7 +339,8 @@ TEST(Albedo, ProbesAreNotClamped) {
 TEST(Clamping, KeepsSums) {
     RenderOptions options = in_memory(all_builtins());
     std::string text = scene_file("laws_lobes.ass");
-    text.replace(text.find("indirect_sample_clamp 5"), 23, "indirect_sample_clamp 0.2\n AA_sample_clamp 0.5");
+    text.replace(text.find("indirect_sample_clamp 5"), 23,
+                 "indirect_sample_clamp 0.2\n AA_sample_clamp 0.5");
     const Picture picture = render(TestScene(text, options, {"caustics"}));
     for (const auto& set : lpe::additive_sets(lpe::BuiltinTable::Reference))
         EXPECT_TRUE(check_sum(picture, "RGBA", names(set)));
@@ -290,18 +357,23 @@ TEST(Determinism, BeautyIsTheSameBitsWhateverIsAskedFor) {
         const Picture alone = render(TestScene(text, in_memory(), {"caustics"}));
         EXPECT_TRUE(check_lit(alone, "RGBA"));
         EXPECT_TRUE(check_identical(alone, "RGBA", picture_of(scene), "RGBA"));
-        const Picture few = render(TestScene(text, in_memory({"diffuse_direct", "N VECTOR", "Z FLOAT", "albedo"}), {"caustics"}));
+        const Picture few = render(TestScene(
+            text, in_memory({"diffuse_direct", "N VECTOR", "Z FLOAT", "albedo"}), {"caustics"}));
         EXPECT_TRUE(check_identical(alone, "RGBA", few, "RGBA"));
-        const Picture odd = render(TestScene(text, in_memory({}, {"d C.{3}D.*", "e C(S|D)*'coat'L"}), {"caustics"}));
+        const Picture odd = render(
+            TestScene(text, in_memory({}, {"d C.{3}D.*", "e C(S|D)*'coat'L"}), {"caustics"}));
         EXPECT_TRUE(check_identical(alone, "RGBA", odd, "RGBA"));
     }
 }
 
 TEST(Determinism, AovsDoNotDependOnTheirCompany) {
     // Not required bit for bit (fewer terms merge in another order), but up to rounding.
-    const Picture few = render(TestScene(scene_file("laws_lobes.ass"), in_memory({"coat_indirect", "diffuse_indirect"}), {"caustics"}));
+    const Picture few =
+        render(TestScene(scene_file("laws_lobes.ass"),
+                         in_memory({"coat_indirect", "diffuse_indirect"}), {"caustics"}));
     EXPECT_TRUE(check_equal(few, "coat_indirect", picture_of("laws_lobes.ass"), "coat_indirect"));
-    EXPECT_TRUE(check_equal(few, "diffuse_indirect", picture_of("laws_lobes.ass"), "diffuse_indirect"));
+    EXPECT_TRUE(
+        check_equal(few, "diffuse_indirect", picture_of("laws_lobes.ass"), "diffuse_indirect"));
 }
 
 TEST(Determinism, ThreadsAndBucketsDoNotMatter) {
@@ -312,10 +384,12 @@ TEST(Determinism, ThreadsAndBucketsDoNotMatter) {
     options.threads = 2;
     for (const char* size : {"8", "13", "64"}) {
         std::string cut = text;
-        cut.replace(cut.find("AA_samples 2"), 12, std::string("AA_samples 2\n bucket_size ") + size);
+        cut.replace(cut.find("AA_samples 2"), 12,
+                    std::string("AA_samples 2\n bucket_size ") + size);
         const Picture two = render(TestScene(cut, options, {"caustics"}));
         for (const FrameLayer& l : one.result().layers)
-            EXPECT_TRUE(check_identical(one, l.info.name, two, l.info.name)) << l.info.name << ", buckets of " << size;
+            EXPECT_TRUE(check_identical(one, l.info.name, two, l.info.name))
+                << l.info.name << ", buckets of " << size;
     }
 }
 

@@ -30,7 +30,8 @@ constexpr std::array<DataAov, 7> kDataAovs{{
     {"uv", LayerSource::Uv, {"VECTOR2", "RGB", "VECTOR"}},
 }};
 
-constexpr std::array<std::string_view, 8> kTypes{"RGB", "RGBA", "FLOAT", "INT", "UINT", "BOOL", "VECTOR", "VECTOR2"};
+constexpr std::array<std::string_view, 8> kTypes{"RGB",  "RGBA", "FLOAT",  "INT",
+                                                 "UINT", "BOOL", "VECTOR", "VECTOR2"};
 
 std::vector<std::string> split_blanks(std::string_view text) {
     std::vector<std::string> out;
@@ -44,7 +45,8 @@ std::vector<std::string> split_blanks(std::string_view text) {
 }
 
 /// The place of one quoted string inside the place of an array, or the array's place if it cannot be found.
-SourceSpan element_place(const SourceSpan& array, std::string_view element, std::size_t& search_from) {
+SourceSpan element_place(const SourceSpan& array, std::string_view element,
+                         std::size_t& search_from) {
     const std::string_view all = array.text();
     const std::string quoted = '"' + std::string(element) + '"';
     const std::size_t at = all.find(quoted, search_from);
@@ -54,7 +56,8 @@ SourceSpan element_place(const SourceSpan& array, std::string_view element, std:
 }
 
 /// The strings of an options array, each with its place.
-std::vector<std::pair<std::string, SourceSpan>> option_strings(const SceneGraph& graph, Name param) {
+std::vector<std::pair<std::string, SourceSpan>> option_strings(const SceneGraph& graph,
+                                                               Name param) {
     std::vector<std::pair<std::string, SourceSpan>> out;
     if (graph.options() == nullptr) return out;
     const SourceSpan where = graph.options()->where(param);
@@ -101,7 +104,8 @@ class Planner {
     lpe::BuiltinTable choose_table() {
         std::string name = input_.options.lpe_table;
         SourceSpan where;
-        if (const NodeInstance* options = input_.graph.options(); name.empty() && options != nullptr) {
+        if (const NodeInstance* options = input_.graph.options();
+            name.empty() && options != nullptr) {
             const UserData* data = options->find_user_data("lpe_table");
             if (data != nullptr && data->type == ParamType::String && data->n > 0) {
                 name = data->values<Name>()[0].str();
@@ -110,7 +114,9 @@ class Planner {
         }
         if (name.empty() || name == "reference") return lpe::BuiltinTable::Reference;
         if (name == "arnold7") return lpe::BuiltinTable::Arnold7;
-        diagnostics_.error(Code::OutputBad, "no table of built-in expressions is called \"" + name + '"', where, "\"reference\" and \"arnold7\" are");
+        diagnostics_.error(Code::OutputBad,
+                           "no table of built-in expressions is called \"" + name + '"', where,
+                           "\"reference\" and \"arnold7\" are");
         return lpe::BuiltinTable::Reference;
     }
 
@@ -123,7 +129,8 @@ class Planner {
 
     void gather_outputs() {
         for (const auto& [text, where] : option_strings(input_.graph, "outputs"))
-            if (std::optional<OutputString> output = parse_output(text, where, diagnostics_)) outputs_.push_back(std::move(*output));
+            if (std::optional<OutputString> output = parse_output(text, where, diagnostics_))
+                outputs_.push_back(std::move(*output));
         const OutputString first = outputs_.empty() ? OutputString{} : outputs_.front();
         const bool asks_more = !input_.options.aovs.empty() || !input_.options.lpes.empty();
         const bool nothing_written = outputs_.empty() && !diagnostics_.has_errors();
@@ -134,14 +141,17 @@ class Planner {
             const std::vector<std::string> words = split_blanks(text);
             const SourceSpan where = lpe::stand_alone(text, "<--aov>");
             if (words.empty() || words.size() > 2) {
-                diagnostics_.error(Code::OutputBad, "\"" + text + "\" is no AOV name and type", where, "for example \"diffuse RGB\" or \"N VECTOR\"");
+                diagnostics_.error(Code::OutputBad, "\"" + text + "\" is no AOV name and type",
+                                   where, "for example \"diffuse RGB\" or \"N VECTOR\"");
                 continue;
             }
-            outputs_.push_back({"", words[0], words.size() > 1 ? words[1] : natural_type(words[0]), first.filter, first.driver, "", false, where});
+            outputs_.push_back({"", words[0], words.size() > 1 ? words[1] : natural_type(words[0]),
+                                first.filter, first.driver, "", false, where});
         }
         for (const std::string& text : input_.options.lpes)
             if (const std::vector<std::string> words = split_blanks(text); !words.empty())
-                outputs_.push_back({"", words[0], "RGB", first.filter, first.driver, "", false, lpe::stand_alone(text, "<--lpe>")});
+                outputs_.push_back({"", words[0], "RGB", first.filter, first.driver, "", false,
+                                    lpe::stand_alone(text, "<--lpe>")});
     }
 
     static std::string natural_type(std::string_view aov) {
@@ -151,15 +161,20 @@ class Planner {
     }
 
     /// A node of the kind by name; null with an error if there is none. An empty name is the default, also null.
-    const NodeInstance* node_of_kind(const std::string& name, NodeKind kind, const SourceSpan& where) {
+    const NodeInstance* node_of_kind(const std::string& name, NodeKind kind,
+                                     const SourceSpan& where) {
         if (name.empty()) return nullptr;
         const NodeInstance* node = input_.graph.find(name);
         if (node != nullptr && node->kind() == kind) return node;
         const std::vector<std::string> known = names_of_kind(input_.graph, kind);
         std::string hint = did_you_mean(name, known);
-        if (hint.empty()) hint = known.empty() ? "the scene has none" : "the scene has " + listed(known);
+        if (hint.empty())
+            hint = known.empty() ? "the scene has none" : "the scene has " + listed(known);
         const std::string what(kind_text(kind));
-        const std::string problem = node == nullptr ? "no " + what + " is called \"" + name + '"' : '"' + name + "\" is a " + node->type().name.str() + ", not a " + what;
+        const std::string problem =
+            node == nullptr
+                ? "no " + what + " is called \"" + name + '"'
+                : '"' + name + "\" is a " + node->type().name.str() + ", not a " + what;
         diagnostics_.error(Code::OutputBad, problem, where, hint);
         return nullptr;
     }
@@ -168,7 +183,8 @@ class Planner {
         std::vector<lpe::OutputName> names;
         for (const OutputString& output : outputs_)
             names.push_back({output.aov, output.layer, output.driver, aov_place(output)});
-        const lpe::AovNames known{table_, {input_.light_groups.begin(), input_.light_groups.end()}, data_aov_names()};
+        const lpe::AovNames known{
+            table_, {input_.light_groups.begin(), input_.light_groups.end()}, data_aov_names()};
         std::vector<lpe::ResolvedOutput> resolved;
         for (std::size_t i = 0; i < outputs_.size(); ++i) {
             resolved.push_back(lpe::resolve_output(names[i], known, diagnostics_));
@@ -193,27 +209,37 @@ class Planner {
         base.view = view_of(node_of_kind(output.filter, NodeKind::Filter, output.where));
         base.driver = driver_of(node_of_kind(output.driver, NodeKind::Driver, output.where));
         base.pass = pass_of(node_of_kind(output.camera, NodeKind::Camera, output.where));
-        if (resolved.kind == lpe::ResolvedOutput::Kind::Lpe) plan_expression(output, resolved, base);
+        if (resolved.kind == lpe::ResolvedOutput::Kind::Lpe)
+            plan_expression(output, resolved, base);
         if (resolved.kind == lpe::ResolvedOutput::Kind::Other) plan_data(output, base);
     }
 
-    void plan_expression(const OutputString& output, const lpe::ResolvedOutput& resolved, const PlannedLayer& base) {
+    void plan_expression(const OutputString& output, const lpe::ResolvedOutput& resolved,
+                         const PlannedLayer& base) {
         if (output.type != "RGB" && output.type != "RGBA" && output.type != "FLOAT")
-            return diagnostics_.error(Code::OutputBad, "\"" + output.aov + "\" is light, it cannot be of type " + output.type, output.where, "RGB, RGBA and FLOAT (luminance) are possible");
+            return diagnostics_.error(
+                Code::OutputBad,
+                "\"" + output.aov + "\" is light, it cannot be of type " + output.type,
+                output.where, "RGB, RGBA and FLOAT (luminance) are possible");
         for (const lpe::LpeLayer& layer : resolved.layers) {
             PlannedLayer planned = base;
             planned.info.name = layer.layer;
             planned.info.aov = layer.aov;
             planned.info.expression = layer.expression;
-            planned.info.light_group = layer.select == lpe::GroupSelect::Named ? layer.group : layer.select == lpe::GroupSelect::Default ? "default" : "";
+            planned.info.light_group = layer.select == lpe::GroupSelect::Named     ? layer.group
+                                       : layer.select == lpe::GroupSelect::Default ? "default"
+                                                                                   : "";
             planned.expr = layer.expr;
             planned.select = layer.select;
             const lpe::NamedExpr* beauty = table_.find("RGBA");
-            const bool is_builtin_beauty = layer.aov == "RGBA" && layer.select == lpe::GroupSelect::All && beauty->text == lpe::find_builtin("RGBA")->expression;
+            const bool is_builtin_beauty = layer.aov == "RGBA" &&
+                                           layer.select == lpe::GroupSelect::All &&
+                                           beauty->text == lpe::find_builtin("RGBA")->expression;
             if (is_builtin_beauty) {
                 plan_.wants_beauty = true;
             } else {
-                planned.source = layer.expr == nullptr ? LayerSource::Black : LayerSource::Expression;
+                planned.source =
+                    layer.expr == nullptr ? LayerSource::Black : LayerSource::Expression;
                 planned.aov = request_of(layer);
             }
             plan_.layers.push_back(std::move(planned));
@@ -221,12 +247,15 @@ class Planner {
     }
 
     void plan_data(const OutputString& output, const PlannedLayer& base) {
-        const auto data = std::find_if(kDataAovs.begin(), kDataAovs.end(), [&](const DataAov& d) { return d.name == output.aov; });
+        const auto data = std::find_if(kDataAovs.begin(), kDataAovs.end(),
+                                       [&](const DataAov& d) { return d.name == output.aov; });
         if (std::find(data->types.begin(), data->types.end(), output.type) == data->types.end()) {
             std::string types;
             for (std::string_view type : data->types)
                 if (!type.empty()) types += (types.empty() ? "" : ", ") + std::string(type);
-            return diagnostics_.error(Code::OutputBad, "\"" + output.aov + "\" cannot be of type " + output.type, output.where, "it can be " + types);
+            return diagnostics_.error(Code::OutputBad,
+                                      "\"" + output.aov + "\" cannot be of type " + output.type,
+                                      output.where, "it can be " + types);
         }
         PlannedLayer planned = base;
         planned.info.name = output.layer.empty() ? output.aov : output.layer;
@@ -239,7 +268,8 @@ class Planner {
     std::uint32_t request_of(const lpe::LpeLayer& layer) {
         for (std::size_t i = 0; i < plan_.requests.size(); ++i) {
             const lpe::AovRequest& r = plan_.requests[i];
-            if (r.expr == layer.expr && r.select == layer.select && r.group == layer.group) return static_cast<std::uint32_t>(i);
+            if (r.expr == layer.expr && r.select == layer.select && r.group == layer.group)
+                return static_cast<std::uint32_t>(i);
         }
         plan_.requests.push_back(layer.request());
         return static_cast<std::uint32_t>(plan_.requests.size() - 1);
@@ -270,7 +300,10 @@ class Planner {
         for (std::size_t i = 0; i < plan_.layers.size(); ++i) {
             const PlannedLayer& layer = plan_.layers[i];
             if (!seen.insert({layer.driver, layer.info.name}).second)
-                diagnostics_.error(Code::OutputBad, "two outputs give one file a layer \"" + layer.info.name + '"', {}, "name one of them: a layer name may follow the driver in the output string");
+                diagnostics_.error(
+                    Code::OutputBad,
+                    "two outputs give one file a layer \"" + layer.info.name + '"', {},
+                    "name one of them: a layer name may follow the driver in the output string");
             plan_.drivers[layer.driver].layers.push_back(static_cast<std::uint32_t>(i));
         }
     }
@@ -278,8 +311,11 @@ class Planner {
     void compile() {
         for (const lpe::AovRequest& request : plan_.requests)
             if (request.expr != nullptr)
-                lpe::for_each_node(*request.expr, [&](const lpe::Node& node) { plan_.wants_probes |= may_take_probe(node); });
-        plan_.program.emplace(lpe::Program::compile(plan_.requests, input_.events, {}, diagnostics_));
+                lpe::for_each_node(*request.expr, [&](const lpe::Node& node) {
+                    plan_.wants_probes |= may_take_probe(node);
+                });
+        plan_.program.emplace(
+            lpe::Program::compile(plan_.requests, input_.events, {}, diagnostics_));
         lint();
     }
 
@@ -291,7 +327,8 @@ class Planner {
             if (layer.expr == nullptr || layer.select != lpe::GroupSelect::All) continue;
             outputs.push_back({layer.info.aov, layer.expr, {}});
             const bool is_custom = lpe::find_builtin(layer.info.aov) == nullptr;
-            if (is_custom && seen.insert(layer.expr.get()).second) lpe::lint_in_scene(layer.expr, layer.info.aov, input_.events, diagnostics_);
+            if (is_custom && seen.insert(layer.expr.get()).second)
+                lpe::lint_in_scene(layer.expr, layer.info.aov, input_.events, diagnostics_);
         }
         lpe::lint_overlaps(outputs, diagnostics_);
         if (!input_.has_caustics) lint_caustics();
@@ -308,11 +345,17 @@ class Planner {
             for (std::size_t i = 0; i < program.n_automata(); ++i)
                 live |= program.automaton(i).live_aov(program.automaton(i).start(), a);
             if (live && !reached[a] && plan_.requests[a].select == lpe::GroupSelect::All)
-                diagnostics_.lint(Code::LpeCaustics, "\"" + plan_.requests[a].name + "\" only takes paths on which a specular event follows a diffuse one; they are black while every shader has caustics off", {}, "set `caustics on` on the specular shaders, as standard_surface has it");
+                diagnostics_.lint(
+                    Code::LpeCaustics,
+                    "\"" + plan_.requests[a].name +
+                        "\" only takes paths on which a specular event follows a diffuse one; "
+                        "they are black while every shader has caustics off",
+                    {}, "set `caustics on` on the specular shaders, as standard_surface has it");
         }
     }
 
-    void mark_reached_without_caustics(const lpe::Automaton& automaton, std::vector<bool>& reached) const {
+    void mark_reached_without_caustics(const lpe::Automaton& automaton,
+                                       std::vector<bool>& reached) const {
         const lpe::Program& program = *plan_.program;
         std::set<std::pair<lpe::State, bool>> seen;
         std::vector<std::pair<lpe::State, bool>> open{{automaton.start(), false}};
@@ -327,7 +370,8 @@ class Planner {
                     for (const std::uint32_t aov : program.aovs_of(atom))
                         reached[aov] = true;
                 } else if (!(after_diffuse && event.lobe == EventLobe::Specular)) {
-                    open.emplace_back(automaton.step(state, program.scatter_class(event)), event.lobe == EventLobe::Diffuse);
+                    open.emplace_back(automaton.step(state, program.scatter_class(event)),
+                                      event.lobe == EventLobe::Diffuse);
                 }
             }
         }
@@ -335,7 +379,8 @@ class Planner {
 
     /// Only a literal A or <A> matches a probe.
     static bool may_take_probe(const lpe::Node& node) {
-        if (const auto* letter = std::get_if<lpe::Letter>(&node.form)) return letter->letter == 'A';
+        if (const auto* letter = std::get_if<lpe::Letter>(&node.form))
+            return letter->letter == 'A';
         const auto* angle = std::get_if<lpe::Angle>(&node.form);
         return angle != nullptr && angle->kind.letters.find('A') != std::string::npos;
     }
@@ -350,7 +395,8 @@ class Planner {
 /// Looks among the layers of one file for sets that add up, and proves them.
 class PartitionFinder {
   public:
-    PartitionFinder(const AovPlan& plan, std::size_t driver, std::span<const Event> events) : plan_(plan), events_(events) {
+    PartitionFinder(const AovPlan& plan, std::size_t driver, std::span<const Event> events)
+        : plan_(plan), events_(events) {
         for (const std::uint32_t index : plan.drivers[driver].layers) {
             const PlannedLayer& layer = plan.layers[index];
             if (layer.expr != nullptr && layer.info.n_channels >= 3) layers_.push_back(&layer);
@@ -362,11 +408,13 @@ class PartitionFinder {
             if (whole->select != lpe::GroupSelect::All) continue;
             try_groups(*whole);
             if (whole->info.aov == "RGBA") {
-                for (const lpe::BuiltinTable table : {lpe::BuiltinTable::Reference, lpe::BuiltinTable::Arnold7})
+                for (const lpe::BuiltinTable table :
+                     {lpe::BuiltinTable::Reference, lpe::BuiltinTable::Arnold7})
                     for (const std::vector<std::string_view>& set : lpe::additive_sets(table))
                         try_set(*whole, set);
             }
-            const std::string direct = whole->info.aov + "_direct", indirect = whole->info.aov + "_indirect";
+            const std::string direct = whole->info.aov + "_direct",
+                              indirect = whole->info.aov + "_indirect";
             try_set(*whole, {direct, indirect});
         }
         return std::move(found_);
@@ -374,11 +422,15 @@ class PartitionFinder {
 
   private:
     /// All layers of a sum must be filtered alike and see the same camera.
-    static bool comparable(const PlannedLayer& a, const PlannedLayer& b) { return a.view == b.view && a.pass == b.pass; }
+    static bool comparable(const PlannedLayer& a, const PlannedLayer& b) {
+        return a.view == b.view && a.pass == b.pass;
+    }
 
     const PlannedLayer* layer_of(const PlannedLayer& whole, std::string_view aov) const {
         for (const PlannedLayer* layer : layers_)
-            if (layer->info.aov == aov && layer->select == lpe::GroupSelect::All && comparable(*layer, whole)) return layer;
+            if (layer->info.aov == aov && layer->select == lpe::GroupSelect::All &&
+                comparable(*layer, whole))
+                return layer;
         return nullptr;
     }
 
@@ -419,12 +471,15 @@ class PartitionFinder {
         bool has_default = false;
         std::set<std::string> split;
         for (const PlannedLayer* layer : layers_) {
-            if (layer->expr != whole.expr || layer->select == lpe::GroupSelect::All || !comparable(*layer, whole)) continue;
+            if (layer->expr != whole.expr || layer->select == lpe::GroupSelect::All ||
+                !comparable(*layer, whole))
+                continue;
             if (layer->select == lpe::GroupSelect::Named) split.insert(layer->info.light_group);
             has_default |= layer->select == lpe::GroupSelect::Default;
             sum += (sum.empty() ? "" : " + ") + layer->info.name;
         }
-        const bool all = std::all_of(plan_.light_groups.begin(), plan_.light_groups.end(), [&](const std::string& g) { return split.count(g) != 0; });
+        const bool all = std::all_of(plan_.light_groups.begin(), plan_.light_groups.end(),
+                                     [&](const std::string& g) { return split.count(g) != 0; });
         if (has_default && all && !lpe::takes_probe(whole.expr)) remember(whole, sum);
     }
 
@@ -448,10 +503,14 @@ std::vector<std::string> data_aov_names() {
     return out;
 }
 
-std::optional<OutputString> parse_output(std::string_view text, const SourceSpan& where, Diagnostics& diagnostics) {
-    constexpr const char* kForm = "an output is \"[camera] aov TYPE filter driver [layer] [HALF]\"";
+std::optional<OutputString> parse_output(std::string_view text, const SourceSpan& where,
+                                         Diagnostics& diagnostics) {
+    constexpr const char* kForm =
+        "an output is \"[camera] aov TYPE filter driver [layer] [HALF]\"";
     std::vector<std::string> words = split_blanks(text);
-    const auto is_type = [](const std::string& word) { return std::find(kTypes.begin(), kTypes.end(), word) != kTypes.end(); };
+    const auto is_type = [](const std::string& word) {
+        return std::find(kTypes.begin(), kTypes.end(), word) != kTypes.end();
+    };
     OutputString out;
     out.where = where;
     if (words.size() > 4 && words.back() == "HALF") {
@@ -460,19 +519,26 @@ std::optional<OutputString> parse_output(std::string_view text, const SourceSpan
     }
     for (std::size_t i : {1U, 2U})
         if (i < words.size() && (words[i] == "NODE" || words[i] == "POINTER")) {
-            diagnostics.error(Code::OutputBad, "AOVs of type " + words[i] + " cannot be written to pictures", where, "RGB RGBA FLOAT INT UINT BOOL VECTOR VECTOR2 can");
+            diagnostics.error(Code::OutputBad,
+                              "AOVs of type " + words[i] + " cannot be written to pictures", where,
+                              "RGB RGBA FLOAT INT UINT BOOL VECTOR VECTOR2 can");
             return std::nullopt;
         }
-    const bool with_camera = words.size() > 2 && is_type(words[2]) && !(is_type(words[1]) && words.size() < 5);
+    const bool with_camera =
+        words.size() > 2 && is_type(words[2]) && !(is_type(words[1]) && words.size() < 5);
     const std::size_t type_at = with_camera ? 2 : 1;
     if (words.size() <= type_at || !is_type(words[type_at])) {
         const std::vector<std::string> types(kTypes.begin(), kTypes.end());
         std::string hint = words.size() > 1 ? did_you_mean(words[1], types) : std::string();
-        diagnostics.error(Code::OutputBad, "output \"" + std::string(text) + "\" names no type", where, hint.empty() ? kForm : hint);
+        diagnostics.error(Code::OutputBad, "output \"" + std::string(text) + "\" names no type",
+                          where, hint.empty() ? kForm : hint);
         return std::nullopt;
     }
     if (words.size() < type_at + 3 || words.size() > type_at + 4) {
-        diagnostics.error(Code::OutputBad, "output \"" + std::string(text) + "\" has " + (words.size() < type_at + 3 ? "too few" : "too many") + " words", where, kForm);
+        diagnostics.error(Code::OutputBad,
+                          "output \"" + std::string(text) + "\" has " +
+                              (words.size() < type_at + 3 ? "too few" : "too many") + " words",
+                          where, kForm);
         return std::nullopt;
     }
     if (with_camera) out.camera = words[0];
@@ -484,10 +550,13 @@ std::optional<OutputString> parse_output(std::string_view text, const SourceSpan
     return out;
 }
 
-std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver, std::span<const Event> events) {
+std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver,
+                                           std::span<const Event> events) {
     return PartitionFinder(plan, driver, events).find();
 }
 
-void plan_layers(const PlanInput& input, AovPlan& plan, Diagnostics& diagnostics) { Planner(input, plan, diagnostics).run(); }
+void plan_layers(const PlanInput& input, AovPlan& plan, Diagnostics& diagnostics) {
+    Planner(input, plan, diagnostics).run();
+}
 
 }  // namespace lightsieve

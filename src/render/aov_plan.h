@@ -44,34 +44,34 @@ enum class LayerSource : std::uint8_t {
 struct PlannedLayer {
     ImageLayer info;
     LayerSource source = LayerSource::Beauty;
-    std::uint32_t aov = 0;      ///< for Expression: index of the request
-    std::uint32_t view = 0;     ///< filter view
+    std::uint32_t aov = 0;   ///< for Expression: index of the request
+    std::uint32_t view = 0;  ///< filter view
     std::uint32_t pass = 0;
     std::uint32_t driver = 0;
-    lpe::Expr expr;             ///< for Expression and Beauty: to prove partitions
+    lpe::Expr expr;  ///< for Expression and Beauty: to prove partitions
     lpe::GroupSelect select = lpe::GroupSelect::All;
 };
 
 /// A pixel filter that layers use.
 struct FilterView {
-    const NodeInstance* node = nullptr;   ///< null: the default gaussian
+    const NodeInstance* node = nullptr;  ///< null: the default gaussian
     std::unique_ptr<PixelFilter> filter;
-    float integral = 1;                   ///< of eval over its support, to compare densities
-    bool is_signed = false;               ///< has negative lobes
+    float integral = 1;      ///< of eval over its support, to compare densities
+    bool is_signed = false;  ///< has negative lobes
 };
 
 /// Layers that are rendered with the same camera rays.
 struct Pass {
     const NodeInstance* camera_node = nullptr;
     std::unique_ptr<Camera> camera;
-    std::uint32_t sampling_view = 0;      ///< its filter places the samples
-    std::vector<std::uint32_t> views;     ///< all filters of its layers; the sampling one first
+    std::uint32_t sampling_view = 0;   ///< its filter places the samples
+    std::vector<std::uint32_t> views;  ///< all filters of its layers; the sampling one first
 };
 
 struct PlannedDriver {
-    const NodeInstance* node = nullptr;   ///< null: made for a scene without outputs
+    const NodeInstance* node = nullptr;  ///< null: made for a scene without outputs
     std::unique_ptr<Driver> driver;
-    std::vector<std::uint32_t> layers;    ///< indices into AovPlan::layers, in file order
+    std::vector<std::uint32_t> layers;  ///< indices into AovPlan::layers, in file order
 };
 
 struct AovPlan {
@@ -81,7 +81,7 @@ struct AovPlan {
     std::vector<Pass> passes;
     std::vector<PlannedDriver> drivers;
     std::optional<lpe::Program> program;
-    bool wants_probes = false;            ///< some expression can take an albedo probe
+    bool wants_probes = false;  ///< some expression can take an albedo probe
     bool wants_beauty = false;
     lpe::BuiltinTable table = lpe::BuiltinTable::Reference;  ///< which built-ins the scene uses
     std::vector<std::string> light_groups;  ///< named groups of the scene's lights
@@ -95,7 +95,9 @@ struct OutputString {
 };
 
 /// Reads `[camera] aov TYPE filter driver [layer] [HALF]`; nothing with an error reported if it is none.
-[[nodiscard]] std::optional<OutputString> parse_output(std::string_view text, const SourceSpan& where, Diagnostics& diagnostics);
+[[nodiscard]] std::optional<OutputString> parse_output(std::string_view text,
+                                                       const SourceSpan& where,
+                                                       Diagnostics& diagnostics);
 
 /// What the plan needs to know of the rest of the scene.
 struct PlanInput {
@@ -112,6 +114,7 @@ void plan_layers(const PlanInput& input, AovPlan& plan, Diagnostics& diagnostics
 /// `RGBA = direct + indirect + ...` for every partition among the layers of driver `driver` that the engine proves.
 ///
 /// events  of the scene: a built-in that takes none of its paths (volume, without volumes) may be missing from a sum
-[[nodiscard]] std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver, std::span<const Event> events);
+[[nodiscard]] std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver,
+                                                         std::span<const Event> events);
 
 }  // namespace lightsieve

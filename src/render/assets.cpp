@@ -46,7 +46,9 @@ std::string expand_variables(std::string_view path) {
                 ++end;
             after = end;
         }
-        const auto value = begin == std::string_view::npos ? std::nullopt : variable(path.substr(begin, end - begin));
+        const auto value = begin == std::string_view::npos
+                               ? std::nullopt
+                               : variable(path.substr(begin, end - begin));
         if (value) {
             out += *value;
             i = after;
@@ -67,7 +69,10 @@ void AssetFinder::add_search_path(std::string_view folders) {
     for (std::size_t i = 0; i < expanded.size(); ++i) {
         const char c = expanded[i];
         // "C:/maps": the colon belongs to the drive.
-        const bool drive = c == ':' && folder.size() == 1 && std::isalpha(static_cast<unsigned char>(folder[0])) != 0 && i + 1 < expanded.size() && (expanded[i + 1] == '/' || expanded[i + 1] == '\\');
+        const bool drive = c == ':' && folder.size() == 1 &&
+                           std::isalpha(static_cast<unsigned char>(folder[0])) != 0 &&
+                           i + 1 < expanded.size() &&
+                           (expanded[i + 1] == '/' || expanded[i + 1] == '\\');
         if (c == ';' || (c == ':' && !drive)) {
             flush();
         } else {
@@ -82,7 +87,8 @@ std::optional<std::string> AssetFinder::find(std::string_view name) const {
     if (path.empty()) return std::nullopt;
     if (path.is_absolute()) return is_file(path) ? std::optional(path.string()) : std::nullopt;
     for (const std::string& folder : folders_)
-        if (is_file(std::filesystem::path(folder) / path)) return (std::filesystem::path(folder) / path).string();
+        if (is_file(std::filesystem::path(folder) / path))
+            return (std::filesystem::path(folder) / path).string();
     return is_file(path) ? std::optional(path.string()) : std::nullopt;
 }
 

@@ -7,11 +7,18 @@ enum CameraPair : std::uint32_t { kFilterPair = 0, kLensPair = 1, kTimePair = 2 
 }  // namespace
 
 CameraSample CameraSampler::sample(int x, int y, std::uint32_t index) const {
-    CameraSample out{Sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), index, scene_.settings.seed), {}, 0, {}, {}};
+    CameraSample out{Sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), index,
+                             scene_.settings.seed),
+                     {},
+                     0,
+                     {},
+                     {}};
     const PixelFilter& filter = *scene_.plan.views[pass_.sampling_view].filter;
     out.offset = filter.sample(out.sampler.at2(kFilterPair)).offset;
-    const Vec2f film{(static_cast<float>(x) + 0.5F + out.offset.x) / static_cast<float>(scene_.settings.width),
-                     (static_cast<float>(y) + 0.5F + out.offset.y) / static_cast<float>(scene_.settings.height)};
+    const Vec2f film{
+        (static_cast<float>(x) + 0.5F + out.offset.x) / static_cast<float>(scene_.settings.width),
+        (static_cast<float>(y) + 0.5F + out.offset.y) /
+            static_cast<float>(scene_.settings.height)};
     out.time = pass_.camera->sample_time(out.sampler.at1(kTimePair));
     out.ray = pass_.camera->ray(film, out.sampler.at2(kLensPair), out.time);
     out.camera_from_world = pass_.camera->camera_from_world(out.time);
@@ -29,7 +36,8 @@ void CameraSampler::weights(const CameraSample& sample, std::vector<float>& out)
         } else if (!view.is_signed && pass_.views[i] == pass_.sampling_view) {
             out[i] = 1;  // by construction, without the rounding of the quotient
         } else {
-            out[i] = density > 0 ? view.filter->eval(sample.offset) / (view.integral * density) : 0;
+            out[i] =
+                density > 0 ? view.filter->eval(sample.offset) / (view.integral * density) : 0;
         }
     }
 }

@@ -15,7 +15,7 @@ struct CameraSample {
     CameraRay ray;
     float time = 0;
     Mat4f camera_from_world;
-    Vec2f offset;                 ///< from the pixel's centre [pixels]
+    Vec2f offset;  ///< from the pixel's centre [pixels]
 };
 
 /// Makes the camera samples of one pass.

@@ -14,7 +14,9 @@ constexpr int kMaxSide = 1 << 16;
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
 constexpr int kMaxSamples = 1 << 24;
 
-std::uint8_t depth_limit(std::int32_t n) { return static_cast<std::uint8_t>(std::clamp(n, 0, 250)); }
+std::uint8_t depth_limit(std::int32_t n) {
+    return static_cast<std::uint8_t>(std::clamp(n, 0, 250));
+}
 
 }  // namespace
 
@@ -22,7 +24,10 @@ void SceneDelete::operator()(Scene* scene) const { delete scene; }
 
 SceneSummary summarize(const Scene& scene) { return scene.summary; }
 
-ScenePtr compile_scene(const SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics) { return Compiler(graph, options, diagnostics).run(); }
+ScenePtr compile_scene(const SceneGraph& graph, const RenderOptions& options,
+                       Diagnostics& diagnostics) {
+    return Compiler(graph, options, diagnostics).run();
+}
 
 Compiler::Compiler(const SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics)
     : graph_(graph), options_(options), diagnostics_(diagnostics), scene_(new Scene) {}
@@ -35,7 +40,8 @@ ScenePtr Compiler::run() {
     gather_events();
     // Mistakes in expressions are forgiven if the scene says so: their AOVs are black (spec: abort_on_error).
     const std::size_t before = diagnostics_.n_errors();
-    plan_layers({graph_, options_, scene_->summary.light_groups, scene_->events, has_caustics()}, scene_->plan, diagnostics_);
+    plan_layers({graph_, options_, scene_->summary.light_groups, scene_->events, has_caustics()},
+                scene_->plan, diagnostics_);
     const std::size_t forgiven = abort_on_error_ ? 0 : diagnostics_.n_errors() - before;
     make_cameras();
     make_views();
@@ -69,14 +75,17 @@ T Compiler::option(Name param, T fallback) const {
     return graph_.options() == nullptr ? fallback : graph_.options()->get<T>(param);
 }
 
-SourceSpan Compiler::option_place(Name param) const { return graph_.options() == nullptr ? SourceSpan{} : graph_.options()->where(param); }
+SourceSpan Compiler::option_place(Name param) const {
+    return graph_.options() == nullptr ? SourceSpan{} : graph_.options()->where(param);
+}
 
 void Compiler::read_settings() {
     RenderSettings& s = scene_->settings;
     scene_->textures = std::make_shared<TextureCache>();
     for (const char* param : {"texture_searchpath", "asset_searchpath"})
         assets_.add_search_path(option<Name>(param, {}).view());
-    if (!options_.scene_path.empty()) assets_.add_folder(std::filesystem::path(options_.scene_path).parent_path().string());
+    if (!options_.scene_path.empty())
+        assets_.add_folder(std::filesystem::path(options_.scene_path).parent_path().string());
     ignore_missing_textures_ = option("ignore_missing_textures", false);
     abort_on_error_ = option("abort_on_error", true);
 
@@ -84,20 +93,30 @@ void Compiler::read_settings() {
     s.height = options_.height > 0 ? options_.height : option<std::int32_t>("yres", 240);
     s.pixel_aspect_ratio = option("pixel_aspect_ratio", 1.0F);
     s.bucket_size = option<std::int32_t>("bucket_size", 64);
-    if (s.width > kMaxSide || s.height > kMaxSide || std::int64_t{s.width} * s.height > kMaxPixels) {
-        diagnostics_.error(Code::LimitImageSize, "a picture of " + std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels is too large", option_place("xres"),
-                           "at most " + std::to_string(kMaxSide) + " on a side and " + std::to_string(kMaxPixels) + " in all");
+    if (s.width > kMaxSide || s.height > kMaxSide ||
+        std::int64_t{s.width} * s.height > kMaxPixels) {
+        diagnostics_.error(Code::LimitImageSize,
+                           "a picture of " + std::to_string(s.width) + " x " +
+                               std::to_string(s.height) + " pixels is too large",
+                           option_place("xres"),
+                           "at most " + std::to_string(kMaxSide) + " on a side and " +
+                               std::to_string(kMaxPixels) + " in all");
         s.width = s.height = 1;
     }
     read_region();
 
-    const int aa = options_.aa_samples != 0 ? options_.aa_samples : option<std::int32_t>("AA_samples", 1);
+    const int aa =
+        options_.aa_samples != 0 ? options_.aa_samples : option<std::int32_t>("AA_samples", 1);
     const std::int64_t squared = std::int64_t{std::max(aa, 1)} * std::max(aa, 1);
-    s.samples = options_.spp > 0 ? options_.spp : static_cast<int>(std::min<std::int64_t>(squared, kMaxSamples));
-    s.seed = options_.seed ? *options_.seed : static_cast<std::uint32_t>(option<std::int32_t>("AA_seed", 1));
+    s.samples = options_.spp > 0 ? options_.spp
+                                 : static_cast<int>(std::min<std::int64_t>(squared, kMaxSamples));
+    s.seed = options_.seed ? *options_.seed
+                           : static_cast<std::uint32_t>(option<std::int32_t>("AA_seed", 1));
     s.threads = options_.threads;
-    s.depth = {depth_limit(option<std::int32_t>("GI_diffuse_depth", 0)), depth_limit(option<std::int32_t>("GI_specular_depth", 0)),
-               depth_limit(option<std::int32_t>("GI_transmission_depth", 2)), depth_limit(option<std::int32_t>("GI_volume_depth", 0)),
+    s.depth = {depth_limit(option<std::int32_t>("GI_diffuse_depth", 0)),
+               depth_limit(option<std::int32_t>("GI_specular_depth", 0)),
+               depth_limit(option<std::int32_t>("GI_transmission_depth", 2)),
+               depth_limit(option<std::int32_t>("GI_volume_depth", 0)),
                depth_limit(option<std::int32_t>("GI_total_depth", 10))};
     s.auto_transparency_depth = option<std::int32_t>("auto_transparency_depth", 10);
     s.sample_clamp = option("AA_sample_clamp", kInfinity);
@@ -105,8 +124,11 @@ void Compiler::read_settings() {
     s.low_light_threshold = option("low_light_threshold", 0.001F);
     s.roulette_depth = options_.roulette_depth;
     constexpr std::array<std::string_view, 4> kInstructionSets{"", "sse2", "avx2", "avx512"};
-    if (std::find(kInstructionSets.begin(), kInstructionSets.end(), options_.isa) == kInstructionSets.end())
-        diagnostics_.error(Code::LimitMemory, "no instruction set is called \"" + options_.isa + '"', {}, "sse2, avx2 and avx512 are known");
+    if (std::find(kInstructionSets.begin(), kInstructionSets.end(), options_.isa) ==
+        kInstructionSets.end())
+        diagnostics_.error(Code::LimitMemory,
+                           "no instruction set is called \"" + options_.isa + '"', {},
+                           "sse2, avx2 and avx512 are known");
     scene_->capture = options_.capture;
     scene_->write_files = options_.write_files;
     scene_->background_visibility = option<std::uint8_t>("background_visibility", 255);
@@ -130,10 +152,15 @@ void Compiler::read_region() {
     }
     if (options_.region) s.region = *options_.region;
     const Region& r = s.region;
-    const bool sane = r.x0 <= r.x1 && r.y0 <= r.y1 && r.x0 >= -kMaxSide && r.y0 >= -kMaxSide && r.x1 <= kMaxSide && r.y1 <= kMaxSide;
+    const bool sane = r.x0 <= r.x1 && r.y0 <= r.y1 && r.x0 >= -kMaxSide && r.y0 >= -kMaxSide &&
+                      r.x1 <= kMaxSide && r.y1 <= kMaxSide;
     if (sane) return;
-    diagnostics_.error(Code::LimitImageSize, "the region " + std::to_string(r.x0) + "," + std::to_string(r.y0) + " to " + std::to_string(r.x1) + "," + std::to_string(r.y1) + " holds no pixels", option_place("region_min_x"),
-                       "a region is its first and last column and row, from the upper left corner");
+    diagnostics_.error(
+        Code::LimitImageSize,
+        "the region " + std::to_string(r.x0) + "," + std::to_string(r.y0) + " to " +
+            std::to_string(r.x1) + "," + std::to_string(r.y1) + " holds no pixels",
+        option_place("region_min_x"),
+        "a region is its first and last column and row, from the upper left corner");
     s.region = {0, 0, 0, 0};
 }
 
@@ -144,22 +171,30 @@ const NodeInstance* Compiler::default_camera() {
         std::vector<std::string> known;
         for (const auto& n : graph_.nodes())
             if (n->kind() == NodeKind::Camera) known.push_back(n->name().str());
-        diagnostics_.error(Code::CameraMissing, "no camera is called \"" + options_.camera + '"', {}, did_you_mean(options_.camera, known));
+        diagnostics_.error(Code::CameraMissing, "no camera is called \"" + options_.camera + '"',
+                           {}, did_you_mean(options_.camera, known));
         return nullptr;
     }
     if (const NodeRef camera = option<NodeRef>("camera", {}); camera.node != nullptr) {
         if (camera.node->kind() == NodeKind::Camera) return camera.node;
-        diagnostics_.error(Code::CameraMissing, "options.camera names a " + camera.node->type().name.str() + ", not a camera", option_place("camera"));
+        diagnostics_.error(
+            Code::CameraMissing,
+            "options.camera names a " + camera.node->type().name.str() + ", not a camera",
+            option_place("camera"));
         return nullptr;
     }
     for (const auto& node : graph_.nodes())
         if (node->kind() == NodeKind::Camera) return node.get();
     if (graph_.options() == nullptr) {
         // An archive for other scenes: everything in it can be checked. render_scene refuses it.
-        diagnostics_.lint(Code::CameraMissing, "the file has neither options nor a camera: only a scene that includes it can be rendered", {});
+        diagnostics_.lint(Code::CameraMissing,
+                          "the file has neither options nor a camera: only a scene that includes "
+                          "it can be rendered",
+                          {});
         return nullptr;
     }
-    diagnostics_.error(Code::CameraMissing, "the scene has no camera", option_place("camera"), "add a persp_camera and name it in options.camera");
+    diagnostics_.error(Code::CameraMissing, "the scene has no camera", option_place("camera"),
+                       "add a persp_camera and name it in options.camera");
     return nullptr;
 }
 
@@ -176,15 +211,19 @@ void Compiler::make_cameras() {
 void Compiler::finish_depth_rules() {
     // A ray type matters where something tells it from specular reflection, which stands for all that do not.
     std::array<bool, 8> matters{};
-    const auto set = [&](RayType type, bool value) { matters[static_cast<std::size_t>(type)] |= value; };
-    for (const RayType type : {RayType::DiffuseReflect, RayType::DiffuseTransmit, RayType::Subsurface})
+    const auto set = [&](RayType type, bool value) {
+        matters[static_cast<std::size_t>(type)] |= value;
+    };
+    for (const RayType type :
+         {RayType::DiffuseReflect, RayType::DiffuseTransmit, RayType::Subsurface})
         set(type, true);  // the caustics switch
     for (const SceneLight& light : scene_->lights) {
         const LightCommon& l = light.common;
         set(RayType::SpecularTransmit, l.transmission != l.specular);
         set(RayType::Volume, l.volume != l.specular);
     }
-    const bool background_differs = scene_->background != nullptr && scene_->background_visibility != 255;
+    const bool background_differs =
+        scene_->background != nullptr && scene_->background_visibility != 255;
     if (scene_->mask_types != 0 || background_differs) matters.fill(true);
     scene_->depth_rules = DepthRules(scene_->settings.depth, matters);
 }
@@ -196,8 +235,10 @@ void Compiler::summarize_scene() {
         ++s.n_instances;
         if (!seen.insert(object.geometry).second) continue;
         ++s.n_shapes;
-        if (const auto* mesh = std::get_if<TriangleMesh>(&object.geometry->data)) s.n_triangles += mesh->indices.size() / 3;
-        if (const auto* spheres = std::get_if<SphereList>(&object.geometry->data)) s.n_spheres += spheres->radii.size();
+        if (const auto* mesh = std::get_if<TriangleMesh>(&object.geometry->data))
+            s.n_triangles += mesh->indices.size() / 3;
+        if (const auto* spheres = std::get_if<SphereList>(&object.geometry->data))
+            s.n_spheres += spheres->radii.size();
     }
     s.n_lights = scene_->lights.size();
     s.n_shaders = scene_->shaders.size();
@@ -216,7 +257,8 @@ void Compiler::summarize_scene() {
             s.layer_file.push_back(static_cast<int>(d));
         }
         for (std::string& proved : proved_partitions(plan, d, scene_->events))
-            if (std::find(s.partitions.begin(), s.partitions.end(), proved) == s.partitions.end()) s.partitions.push_back(std::move(proved));
+            if (std::find(s.partitions.begin(), s.partitions.end(), proved) == s.partitions.end())
+                s.partitions.push_back(std::move(proved));
     }
 }
 

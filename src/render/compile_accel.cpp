@@ -5,13 +5,15 @@ namespace lightsieve {
 namespace {
 
 /// Ray types that scatter: those whose masks shares of one ray can differ in.
-constexpr std::uint8_t kScattered = static_cast<std::uint8_t>(~(ray_bit(RayType::Camera) | ray_bit(RayType::Shadow)));
+constexpr std::uint8_t kScattered =
+    static_cast<std::uint8_t>(~(ray_bit(RayType::Camera) | ray_bit(RayType::Shadow)));
 
 std::uint32_t mask_of(const SceneObject& object) {
     const std::uint32_t seen = object.visibility & ~std::uint32_t{ray_bit(RayType::Shadow)};
     if ((object.visibility & ray_bit(RayType::Shadow)) == 0) return seen;
     // One-sided shadows need a look at each hit, as transparent ones do.
-    const bool look = object.may_be_transparent || object.may_tint_shadows || (object.sidedness & ray_bit(RayType::Shadow)) == 0;
+    const bool look = object.may_be_transparent || object.may_tint_shadows ||
+                      (object.sidedness & ray_bit(RayType::Shadow)) == 0;
     return seen | (look ? kMaskShadowTransparent : kMaskShadowOpaque);
 }
 

@@ -7,7 +7,8 @@ namespace {
 
 Event event_of(const LobeInfo& lobe) {
     Event event{lobe.kind, lobe.lobe, {}};
-    if (active_fault() == Fault::TransmissionAsDiffuse && lobe.kind == EventKind::Transmission) event.lobe = EventLobe::Diffuse;
+    if (active_fault() == Fault::TransmissionAsDiffuse && lobe.kind == EventKind::Transmission)
+        event.lobe = EventLobe::Diffuse;
     if (active_fault() == Fault::CoatAsSpecular && lobe.label == "coat") return event;
     if (!lobe.label.empty()) event.labels.push_back(lobe.label);
     return event;
@@ -16,13 +17,18 @@ Event event_of(const LobeInfo& lobe) {
 /// A shader without closures shows its colour unlit: emission.
 const Event kUnlit{EventKind::Object, EventLobe::None, {}};
 
-Event light_event(const SceneLight& light) { return {EventKind::Light, EventLobe::None, {light.group}}; }
-Event background_event(const SceneLight& light) { return {EventKind::Background, EventLobe::None, {light.group}}; }
+Event light_event(const SceneLight& light) {
+    return {EventKind::Light, EventLobe::None, {light.group}};
+}
+Event background_event(const SceneLight& light) {
+    return {EventKind::Background, EventLobe::None, {light.group}};
+}
 
 }  // namespace
 
 std::uint32_t Compiler::event_index(const Event& event) {
-    const auto [at, is_new] = event_index_.try_emplace(event, static_cast<std::uint32_t>(scene_->events.size()));
+    const auto [at, is_new] =
+        event_index_.try_emplace(event, static_cast<std::uint32_t>(scene_->events.size()));
     if (is_new) scene_->events.push_back(event);
     return at->second;
 }
@@ -57,9 +63,11 @@ void Compiler::fill_records() {
         shader->records.clear();
         for (const LobeInfo& lobe : shader->type().lobes)
             fill(shader->records.emplace_back(), event_of(lobe));
-        if (const ParamInfo* exit = shader->type().find("exit_to_background"); exit != nullptr && exit->type == ParamType::Bool)
+        if (const ParamInfo* exit = shader->type().find("exit_to_background");
+            exit != nullptr && exit->type == ParamType::Bool)
             for (LobeRecord& record : shader->records)
-                record.exit_to_background = *reinterpret_cast<const bool*>(shader->block() + exit->offset);
+                record.exit_to_background =
+                    *reinterpret_cast<const bool*>(shader->block() + exit->offset);
         if (shader->type().eval_closure == nullptr) fill(shader->records.emplace_back(), kUnlit);
     }
     for (SceneLight& light : scene_->lights) {

@@ -17,7 +17,8 @@ void Compiler::make_lights() {
         light.name = node->name();
         light.group = light.common.aov.empty() ? "default" : light.common.aov.str();
         light.is_skydome = light.light->is_skydome();
-        light.samples_only = !light.common.cast_shadows || light.common.shadow_density != 1 || !is_black(light.common.shadow_color);
+        light.samples_only = !light.common.cast_shadows || light.common.shadow_density != 1 ||
+                             !is_black(light.common.shadow_color);
         const auto index = static_cast<std::uint32_t>(scene_->lights.size());
         light_index_[node.get()] = index;
         if (light.light->infinite()) scene_->infinite_lights.push_back(index);

@@ -11,7 +11,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Driver node types by file extension, for `-o picture.png`.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kDriverOfExtension{{{".exr", "driver_exr"}, {".png", "driver_png"}, {".tif", "driver_tiff"}, {".tiff", "driver_tiff"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kDriverOfExtension{
+    {{".exr", "driver_exr"},
+     {".png", "driver_png"},
+     {".tif", "driver_tiff"},
+     {".tiff", "driver_tiff"}}};
 
 std::string_view driver_for(const fs::path& path) {
     for (const auto& [extension, driver] : kDriverOfExtension)
@@ -22,30 +26,38 @@ std::string_view driver_for(const fs::path& path) {
 /// A copy of a parameter block with another file name.
 class DriverBlock {
   public:
-    DriverBlock(const NodeType& type, const void* block) : type_(type), bytes_((type.block_size + 15) / 16) { std::memcpy(bytes_.data(), block, type.block_size); }
+    DriverBlock(const NodeType& type, const void* block)
+        : type_(type), bytes_((type.block_size + 15) / 16) {
+        std::memcpy(bytes_.data(), block, type.block_size);
+    }
     [[nodiscard]] const void* data() const { return bytes_.data(); }
     [[nodiscard]] std::string filename() const {
         Name name;
-        if (const ParamInfo* info = type_.find("filename")) std::memcpy(static_cast<void*>(&name), at(info->offset), sizeof(name));
+        if (const ParamInfo* info = type_.find("filename"))
+            std::memcpy(static_cast<void*>(&name), at(info->offset), sizeof(name));
         return name.str();
     }
     void set_filename(const std::string& filename) {
         const Name name(filename);
-        if (const ParamInfo* info = type_.find("filename")) std::memcpy(at(info->offset), static_cast<const void*>(&name), sizeof(name));
+        if (const ParamInfo* info = type_.find("filename"))
+            std::memcpy(at(info->offset), static_cast<const void*>(&name), sizeof(name));
     }
 
   private:
     struct alignas(16) Line {
         std::byte bytes[16];
     };
-    [[nodiscard]] std::byte* at(std::size_t offset) const { return const_cast<std::byte*>(reinterpret_cast<const std::byte*>(bytes_.data())) + offset; }
+    [[nodiscard]] std::byte* at(std::size_t offset) const {
+        return const_cast<std::byte*>(reinterpret_cast<const std::byte*>(bytes_.data())) + offset;
+    }
     const NodeType& type_;
     std::vector<Line> bytes_;
 };
 
 bool names_a_folder(const std::string& output) {
     std::error_code ignored;
-    return output.back() == '/' || fs::is_directory(output, ignored) || fs::path(output).extension().empty();
+    return output.back() == '/' || fs::is_directory(output, ignored) ||
+           fs::path(output).extension().empty();
 }
 
 /// Mean of `eval` over the filter's square times its area.
@@ -55,14 +67,16 @@ float integrate(const PixelFilter& filter) {
     double sum = 0;
     for (int y = 0; y < kSteps; ++y)
         for (int x = 0; x < kSteps; ++x)
-            sum += double{filter.eval({(static_cast<float>(x) + 0.5F) * step - r, (static_cast<float>(y) + 0.5F) * step - r})};
+            sum += double{filter.eval({(static_cast<float>(x) + 0.5F) * step - r,
+                                       (static_cast<float>(y) + 0.5F) * step - r})};
     return static_cast<float>(sum * double{step} * double{step});
 }
 
 bool has_negative_lobes(const PixelFilter& filter) {
     constexpr int kSteps = 64;
     for (int x = 0; x < kSteps; ++x)
-        if (filter.eval({filter.radius() * (static_cast<float>(x) + 0.5F) / kSteps, 0}) < 0) return true;
+        if (filter.eval({filter.radius() * (static_cast<float>(x) + 0.5F) / kSteps, 0}) < 0)
+            return true;
     return false;
 }
 
@@ -70,17 +84,21 @@ bool has_negative_lobes(const PixelFilter& filter) {
 
 void Compiler::make_views() {
     for (FilterView& view : scene_->plan.views) {
-        const NodeType* type = view.node != nullptr ? &view.node->type() : graph_.registry().find("gaussian_filter");
+        const NodeType* type =
+            view.node != nullptr ? &view.node->type() : graph_.registry().find("gaussian_filter");
         LIGHTSIEVE_ASSERT(type != nullptr && type->make_filter != nullptr, "no filter");
-        CompileContext context(*this, view.node, view.node != nullptr ? view.node->name() : Name("gaussian_filter"));
-        view.filter = type->make_filter(view.node != nullptr ? view.node->block() : type->default_block.data(), context);
+        CompileContext context(*this, view.node,
+                               view.node != nullptr ? view.node->name() : Name("gaussian_filter"));
+        view.filter = type->make_filter(
+            view.node != nullptr ? view.node->block() : type->default_block.data(), context);
         if (!view.filter) continue;
         view.integral = integrate(*view.filter);
         view.is_signed = has_negative_lobes(*view.filter);
     }
     for (PlannedLayer& layer : scene_->plan.layers) {
         const FilterView& view = scene_->plan.views[layer.view];
-        layer.info.filter = view.node != nullptr ? view.node->type().name.str() : "gaussian_filter";
+        layer.info.filter =
+            view.node != nullptr ? view.node->type().name.str() : "gaussian_filter";
         if (view.filter) layer.info.filter_width = 2 * view.filter->radius();
     }
 }
@@ -89,15 +107,22 @@ void Compiler::make_views() {
 /// of their own, so that the beauty's samples never depend on what else is asked for.
 void Compiler::part_passes() {
     AovPlan& plan = scene_->plan;
-    if (std::any_of(plan.views.begin(), plan.views.end(), [](const FilterView& v) { return !v.filter; })) return;
+    if (std::any_of(plan.views.begin(), plan.views.end(),
+                    [](const FilterView& v) { return !v.filter; }))
+        return;
     const std::size_t n_cameras = plan.passes.size();
     const auto add_view = [](Pass& pass, std::uint32_t view) {
-        if (std::find(pass.views.begin(), pass.views.end(), view) == pass.views.end()) pass.views.push_back(view);
+        if (std::find(pass.views.begin(), pass.views.end(), view) == pass.views.end())
+            pass.views.push_back(view);
     };
     for (std::uint32_t p = 0; p < n_cameras; ++p) {
         // The filter that places the samples: the beauty's, else the first that is a mean, else the first.
         const PlannedLayer* main = nullptr;
-        const auto rank = [&](const PlannedLayer& l) { return plan.views[l.view].filter->closest() ? 0 : l.source == LayerSource::Beauty ? 2 : 1; };
+        const auto rank = [&](const PlannedLayer& l) {
+            return plan.views[l.view].filter->closest() ? 0
+                   : l.source == LayerSource::Beauty    ? 2
+                                                        : 1;
+        };
         for (const PlannedLayer& layer : plan.layers)
             if (layer.pass == p && (main == nullptr || rank(layer) > rank(*main))) main = &layer;
         if (main == nullptr) continue;
@@ -107,18 +132,22 @@ void Compiler::part_passes() {
         for (PlannedLayer& layer : plan.layers) {
             if (layer.pass != p) continue;
             const PixelFilter& filter = *plan.views[layer.view].filter;
-            if (filter.closest() || layer.view == sampling || filter.radius() <= plan.views[sampling].filter->radius()) {
+            if (filter.closest() || layer.view == sampling ||
+                filter.radius() <= plan.views[sampling].filter->radius()) {
                 add_view(plan.passes[p], layer.view);
                 continue;
             }
             std::uint32_t other = static_cast<std::uint32_t>(n_cameras);
-            while (other < plan.passes.size() && !(plan.passes[other].camera_node == plan.passes[p].camera_node && plan.passes[other].sampling_view == layer.view))
+            while (other < plan.passes.size() &&
+                   !(plan.passes[other].camera_node == plan.passes[p].camera_node &&
+                     plan.passes[other].sampling_view == layer.view))
                 ++other;
             if (other == plan.passes.size()) {
                 Pass pass{plan.passes[p].camera_node, nullptr, layer.view, {layer.view}};
                 if (pass.camera_node != nullptr) {
                     CompileContext context(*this, pass.camera_node, pass.camera_node->name());
-                    pass.camera = pass.camera_node->type().make_camera(pass.camera_node->block(), context);
+                    pass.camera =
+                        pass.camera_node->type().make_camera(pass.camera_node->block(), context);
                 }
                 plan.passes.push_back(std::move(pass));
             }
@@ -133,13 +162,18 @@ void Compiler::make_drivers() {
 }
 
 void Compiler::make_driver(PlannedDriver& planned, std::size_t index) {
-    const bool to_picture = !options_.output.empty() && !names_a_folder(options_.output) && index == 0;
-    const NodeType* type = planned.node != nullptr ? &planned.node->type() : graph_.registry().find("driver_exr");
-    const void* block = planned.node != nullptr ? planned.node->block() : type->default_block.data();
+    const bool to_picture =
+        !options_.output.empty() && !names_a_folder(options_.output) && index == 0;
+    const NodeType* type =
+        planned.node != nullptr ? &planned.node->type() : graph_.registry().find("driver_exr");
+    const void* block =
+        planned.node != nullptr ? planned.node->block() : type->default_block.data();
     if (to_picture) {
         const std::string_view wanted = driver_for(options_.output);
         if (wanted.empty()) {
-            return diagnostics_.error(Code::OutputBad, "no driver writes \"" + options_.output + '"', {}, ".exr, .png, .tif and .tiff are known; a name without extension is a folder");
+            return diagnostics_.error(
+                Code::OutputBad, "no driver writes \"" + options_.output + '"', {},
+                ".exr, .png, .tif and .tiff are known; a name without extension is a folder");
         }
         if (type->name != Name(wanted)) {
             type = graph_.registry().find(wanted);
@@ -149,22 +183,35 @@ void Compiler::make_driver(PlannedDriver& planned, std::size_t index) {
     DriverBlock copy(*type, block);
     std::string filename = expand_variables(copy.filename());
     if (filename.empty()) {
-        const std::string stem = options_.scene_path.empty() ? "render" : fs::path(options_.scene_path).filename().string();
+        const std::string stem = options_.scene_path.empty()
+                                     ? "render"
+                                     : fs::path(options_.scene_path).filename().string();
         filename = fs::path(stem.substr(0, stem.find(".ass"))).string() + ".exr";
-        if (planned.node != nullptr) diagnostics_.warning(Code::OutputBad, "the driver \"" + planned.node->name().str() + "\" has no filename; it writes \"" + filename + '"', planned.node->where());
+        if (planned.node != nullptr)
+            diagnostics_.warning(Code::OutputBad,
+                                 "the driver \"" + planned.node->name().str() +
+                                     "\" has no filename; it writes \"" + filename + '"',
+                                 planned.node->where());
     }
     if (to_picture) {
         filename = options_.output;
-    } else if (!options_.output.empty() && names_a_folder(options_.output) && fs::path(filename).is_relative()) {
+    } else if (!options_.output.empty() && names_a_folder(options_.output) &&
+               fs::path(filename).is_relative()) {
         filename = (fs::path(options_.output) / filename).string();
     }
     copy.set_filename(filename);
-    CompileContext context(*this, planned.node, planned.node != nullptr ? planned.node->name() : Name("<default driver>"));
+    CompileContext context(
+        *this, planned.node,
+        planned.node != nullptr ? planned.node->name() : Name("<default driver>"));
     planned.driver = type->make_driver(copy.data(), context);
-    const bool one_layer_only = type->name == Name("driver_png") || type->name == Name("driver_tiff");
+    const bool one_layer_only =
+        type->name == Name("driver_png") || type->name == Name("driver_tiff");
     if (one_layer_only && planned.layers.size() > 1) {
         const SourceSpan where = planned.node != nullptr ? planned.node->where() : SourceSpan{};
-        diagnostics_.error(Code::DriverConflict, "a " + type->name.str() + " holds one layer, but " + std::to_string(planned.layers.size()) + " outputs go to it", where, "use driver_exr, or one driver for each output");
+        diagnostics_.error(Code::DriverConflict,
+                           "a " + type->name.str() + " holds one layer, but " +
+                               std::to_string(planned.layers.size()) + " outputs go to it",
+                           where, "use driver_exr, or one driver for each output");
     }
 }
 
@@ -176,7 +223,10 @@ void Compiler::check_files() {
         std::error_code ignored;
         const std::string path = fs::weakly_canonical(planned.driver->path(), ignored).string();
         if (const auto [at, is_new] = writer.try_emplace(path, i); !is_new)
-            diagnostics_.error(Code::DriverConflict, "two drivers write \"" + planned.driver->path() + '"', planned.node != nullptr ? planned.node->where("filename") : SourceSpan{}, "give each driver a file of its own");
+            diagnostics_.error(
+                Code::DriverConflict, "two drivers write \"" + planned.driver->path() + '"',
+                planned.node != nullptr ? planned.node->where("filename") : SourceSpan{},
+                "give each driver a file of its own");
     }
 }
 

@@ -15,15 +15,22 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, int depth) 
     const NodeType& type = node.type();
     if (type.eval_closure == nullptr && type.eval_value == nullptr) {
         failed_shaders_.insert(&node);
-        diagnostics_.error(Code::LinkType, "\"" + node.name().str() + "\" is a " + type.name.str() + ", not a shader", node.where());
+        diagnostics_.error(
+            Code::LinkType,
+            "\"" + node.name().str() + "\" is a " + type.name.str() + ", not a shader",
+            node.where());
         return nullptr;
     }
     if (depth > kMaxShaderDepth) {
         failed_shaders_.insert(&node);
-        diagnostics_.error(Code::LimitShaderDepth, "shaders are linked more than " + std::to_string(kMaxShaderDepth) + " deep", node.where(), "shorten the chain of links");
+        diagnostics_.error(
+            Code::LimitShaderDepth,
+            "shaders are linked more than " + std::to_string(kMaxShaderDepth) + " deep",
+            node.where(), "shorten the chain of links");
         return nullptr;
     }
-    auto program = std::make_unique<ShaderProgram>(type, static_cast<const std::byte*>(node.block()));
+    auto program =
+        std::make_unique<ShaderProgram>(type, static_cast<const std::byte*>(node.block()));
     ShaderProgram* out = program.get();
     link_parameters(node, *out, depth);
     if (type.prepare != nullptr) {
@@ -32,7 +39,8 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, int depth) 
     }
     out->may_be_transparent = shader_may_be_transparent(node);
     const auto* transmission = node.find<float>("transmission");
-    out->may_tint_shadows = transmission != nullptr && (*transmission > 0 || node.is_linked("transmission"));
+    out->may_tint_shadows =
+        transmission != nullptr && (*transmission > 0 || node.is_linked("transmission"));
     scene_->shaders.push_back(std::move(program));
     programs_[&node] = out;
     return out;
@@ -41,12 +49,15 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, int depth) 
 void Compiler::link_parameters(const NodeInstance& node, ShaderProgram& program, int depth) {
     for (const Link& link : node.links()) {
         if (link.element >= 0) {
-            diagnostics_.warning(Code::ParamPending, "a link to one element of an array is not supported yet", link.where, "the element keeps its own value");
+            diagnostics_.warning(Code::ParamPending,
+                                 "a link to one element of an array is not supported yet",
+                                 link.where, "the element keeps its own value");
             continue;
         }
         const ShaderProgram* source = program_for(*link.source, depth + 1);
         if (source == nullptr) continue;
-        program.add_patch({link.param->offset, link.param->type, link.component, source, link.source_component});
+        program.add_patch(
+            {link.param->offset, link.param->type, link.component, source, link.source_component});
     }
     for (const ParamInfo& param : node.type().params) {
         if (param.type != ParamType::Closure || param.is_array) continue;
@@ -69,18 +80,24 @@ const ShaderProgram* Compiler::default_shader() {
     if (default_shader_ != nullptr) return default_shader_;
     const NodeType* lambert = graph_.registry().find("lambert");
     LIGHTSIEVE_ASSERT(lambert != nullptr, "the registry has no lambert");
-    scene_->shaders.push_back(std::make_unique<ShaderProgram>(*lambert, lambert->default_block.data()));
+    scene_->shaders.push_back(
+        std::make_unique<ShaderProgram>(*lambert, lambert->default_block.data()));
     default_shader_ = scene_->shaders.back().get();
     return default_shader_;
 }
 
 void Compiler::make_background() {
-    const auto* ref = graph_.options() == nullptr ? nullptr : graph_.options()->find<NodeRef>("background");
+    const auto* ref =
+        graph_.options() == nullptr ? nullptr : graph_.options()->find<NodeRef>("background");
     if (ref == nullptr || ref->node == nullptr) return;
     const ShaderProgram* program = program_for(*ref->node);
     if (program == nullptr) return;
     if (program->type().eval_value == nullptr) {
-        diagnostics_.warning(Code::ParamPending, "a " + program->type().name.str() + " as background is not supported yet", graph_.options()->where("background"), "the background stays black; link a colour, an image for example");
+        diagnostics_.warning(
+            Code::ParamPending,
+            "a " + program->type().name.str() + " as background is not supported yet",
+            graph_.options()->where("background"),
+            "the background stays black; link a colour, an image for example");
         return;
     }
     scene_->background = program;
@@ -95,9 +112,13 @@ ColorInput CompileContext::color_input(Name param) {
         const ShaderProgram* source = compiler_.program_for(*link.source);
         if (source == nullptr) return ColorInput(kBlack);
         if (link.component >= 0 || link.source_component >= 0) {
-            diagnostics().warning(Code::ParamPending, "a link of a single channel is not supported here yet", link.where, "the whole colour of the shader is used");
+            diagnostics().warning(Code::ParamPending,
+                                  "a link of a single channel is not supported here yet",
+                                  link.where, "the whole colour of the shader is used");
         }
-        return {source, [](const void* program, const ShadePoint& at) { return static_cast<const ShaderProgram*>(program)->value(at); }};
+        return {source, [](const void* program, const ShadePoint& at) {
+                    return static_cast<const ShaderProgram*>(program)->value(at);
+                }};
     }
     return ColorInput(node_->get<Color>(param));
 }
@@ -107,11 +128,15 @@ NodeContext::Frame CompileContext::frame() const {
     return {s.width, s.height, s.pixel_aspect_ratio};
 }
 
-std::unique_ptr<ShapeGeometry> CompileContext::geometry_of(NodeRef shape, Mat4f& world_from_object) {
+std::unique_ptr<ShapeGeometry> CompileContext::geometry_of(NodeRef shape,
+                                                           Mat4f& world_from_object) {
     if (!shape) return nullptr;
     const NodeInstance& node = *shape.node;
     if (node.type().shape_common == nullptr) {
-        diagnostics().error(Code::LinkType, "\"" + node.name().str() + "\" is a " + node.type().name.str() + ", not a shape", where("mesh"));
+        diagnostics().error(
+            Code::LinkType,
+            "\"" + node.name().str() + "\" is a " + node.type().name.str() + ", not a shape",
+            where("mesh"));
         return nullptr;
     }
     const Array<Mat4f>& matrix = node.type().shape_common(node.block())->matrix;

@@ -1,6 +1,6 @@
 // Shapes and instances to placed geometry. See compiler.h.
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "render/compiler.h"
 
@@ -27,7 +27,9 @@ std::vector<Mat4f> matrices_over_shutter(const ShapeCommon& common, Shutter shut
     // A matrix array of n elements and one key means n keys, too: that is how they are written.
     const std::size_t n = std::size_t{common.matrix.n} * common.matrix.n_keys;
     const std::span<const Mat4f> keys(common.matrix.data, n);
-    return keys_over_shutter<Mat4f>(keys, {common.motion_start, common.motion_end}, shutter, [](const Mat4f& a, const Mat4f& b, float t) { return lerp(a, b, t); });
+    return keys_over_shutter<Mat4f>(
+        keys, {common.motion_start, common.motion_end}, shutter,
+        [](const Mat4f& a, const Mat4f& b, float t) { return lerp(a, b, t); });
 }
 
 /// outer applied after inner, key by key.
@@ -35,7 +37,9 @@ std::vector<Mat4f> compose(const std::vector<Mat4f>& inner, const std::vector<Ma
     const std::size_t n = std::max(inner.size(), outer.size());
     const auto at = [n](const std::vector<Mat4f>& keys, std::size_t i) {
         if (keys.size() == 1) return keys[0];
-        const float x = n > 1 ? static_cast<float>(i) / static_cast<float>(n - 1) * static_cast<float>(keys.size() - 1) : 0;
+        const float x = n > 1 ? static_cast<float>(i) / static_cast<float>(n - 1) *
+                                    static_cast<float>(keys.size() - 1)
+                              : 0;
         const std::size_t k = std::min(static_cast<std::size_t>(x), keys.size() - 2);
         return lerp(keys[k], keys[k + 1], x - static_cast<float>(k));
     };
@@ -58,7 +62,8 @@ void Compiler::make_shapes() {
         }
     }
     for (const auto& node : graph_.nodes())
-        if (node->kind() == NodeKind::Shape && node->type().shape_common != nullptr) place_shape(*node);
+        if (node->kind() == NodeKind::Shape && node->type().shape_common != nullptr)
+            place_shape(*node);
 }
 
 std::unique_ptr<ShapeGeometry> Compiler::geometry_of(const NodeInstance& node) {
@@ -66,10 +71,14 @@ std::unique_ptr<ShapeGeometry> Compiler::geometry_of(const NodeInstance& node) {
     CompileContext context(*this, &node, node.name());
     std::unique_ptr<ShapeGeometry> geometry = node.type().make_geometry(node.block(), context);
     if (!geometry || geometry->instance_of) return geometry;
-    const bool empty = std::visit([](const auto& g) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(g)>, TriangleMesh>) return g.indices.empty() || g.positions.empty();
-        else return g.radii.empty() || g.centers.empty();
-    }, geometry->data);
+    const bool empty = std::visit(
+        [](const auto& g) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(g)>, TriangleMesh>)
+                return g.indices.empty() || g.positions.empty();
+            else
+                return g.radii.empty() || g.centers.empty();
+        },
+        geometry->data);
     return empty ? nullptr : std::move(geometry);
 }
 
@@ -77,12 +86,14 @@ void Compiler::resample_motion(ShapeGeometry& geometry, MotionRange range) const
     const Shutter shutter = shutter_of(scene_->settings);
     const auto resample = [&](std::vector<std::vector<Vec3f>>& keys) {
         if (keys.size() < 2) return;
-        keys = keys_over_shutter<std::vector<Vec3f>>(keys, range, shutter, [](const std::vector<Vec3f>& a, const std::vector<Vec3f>& b, float t) {
-            std::vector<Vec3f> out(a.size());
-            for (std::size_t i = 0; i < a.size(); ++i)
-                out[i] = blend_points(a[i], b[i], t);
-            return out;
-        });
+        keys = keys_over_shutter<std::vector<Vec3f>>(
+            keys, range, shutter,
+            [](const std::vector<Vec3f>& a, const std::vector<Vec3f>& b, float t) {
+                std::vector<Vec3f> out(a.size());
+                for (std::size_t i = 0; i < a.size(); ++i)
+                    out[i] = blend_points(a[i], b[i], t);
+                return out;
+            });
     };
     if (auto* mesh = std::get_if<TriangleMesh>(&geometry.data)) {
         resample(mesh->positions);
@@ -93,7 +104,8 @@ void Compiler::resample_motion(ShapeGeometry& geometry, MotionRange range) const
 }
 
 const ShapeGeometry* Compiler::shared_geometry(const NodeInstance& node) {
-    if (const auto known = geometry_by_node_.find(&node); known != geometry_by_node_.end()) return known->second;
+    if (const auto known = geometry_by_node_.find(&node); known != geometry_by_node_.end())
+        return known->second;
     std::unique_ptr<ShapeGeometry> geometry = geometry_of(node);
     const ShapeCommon& common = *node.type().shape_common(node.block());
     if (geometry) resample_motion(*geometry, {common.motion_start, common.motion_end});
@@ -112,11 +124,20 @@ void Compiler::place_shape(const NodeInstance& node) {
     const ShapeGeometry* geometry = shared_geometry(node);
     for (int depth = 0; geometry != nullptr && geometry->instance_of; ++depth) {
         if (depth >= kMaxInstanceDepth)
-            return diagnostics_.error(Code::CyclicLink, "instances refer to each other more than " + std::to_string(kMaxInstanceDepth) + " deep", node.where("node"));
+            return diagnostics_.error(Code::CyclicLink,
+                                      "instances refer to each other more than " +
+                                          std::to_string(kMaxInstanceDepth) + " deep",
+                                      node.where("node"));
         source = geometry->instance_of.node;
         if (source->type().shape_common == nullptr)
-            return diagnostics_.error(Code::LinkType, "\"" + source->name().str() + "\" is a " + source->type().name.str() + ", not a shape", node.where("node"));
-        if (geometry->inherit_xform) placement = compose(matrices_over_shutter(*source->type().shape_common(source->block()), shutter), placement);
+            return diagnostics_.error(Code::LinkType,
+                                      "\"" + source->name().str() + "\" is a " +
+                                          source->type().name.str() + ", not a shape",
+                                      node.where("node"));
+        if (geometry->inherit_xform)
+            placement = compose(
+                matrices_over_shutter(*source->type().shape_common(source->block()), shutter),
+                placement);
         geometry = shared_geometry(*source);
     }
     if (geometry == nullptr) return;
@@ -128,13 +149,20 @@ void Compiler::place_shape(const NodeInstance& node) {
         bool invertible = false;
         object.object_from_world.push_back(m.inverse(&invertible));
         if (!invertible || !m.finite()) {
-            diagnostics_.warning(Code::ShapeBad, fmt::format("the matrix of \"{}\" flattens it or is not finite; the shape is left out", node.name().view()), node.where("matrix"));
+            diagnostics_.warning(
+                Code::ShapeBad,
+                fmt::format(
+                    "the matrix of \"{}\" flattens it or is not finite; the shape is left out",
+                    node.name().view()),
+                node.where("matrix"));
             return;
         }
     }
     // What an instance does not write it takes from its source, but for its own visibility.
     const ShapeCommon& base = *source->type().shape_common(source->block());
-    const auto own = [&](const char* param) -> const ShapeCommon& { return node.is_set(param) ? common : base; };
+    const auto own = [&](const char* param) -> const ShapeCommon& {
+        return node.is_set(param) ? common : base;
+    };
     object.shaders = shaders_of(node, *source);
     object.lights = lights_of(node.is_set("use_light_group") ? node : *source);
     object.shadow_lights = shadow_lights_of(node.is_set("use_shadow_group") ? node : *source);
@@ -146,12 +174,17 @@ void Compiler::place_shape(const NodeInstance& node) {
     object.invert_normals = own("invert_normals").invert_normals;
     object.receive_shadows = own("receive_shadows").receive_shadows;
     object.self_shadows = own("self_shadows").self_shadows;
-    object.may_be_transparent = std::any_of(object.shaders.begin(), object.shaders.end(), [](const ShaderProgram* p) { return p->may_be_transparent; });
-    object.may_tint_shadows = std::any_of(object.shaders.begin(), object.shaders.end(), [](const ShaderProgram* p) { return p->may_tint_shadows; });
+    object.may_be_transparent =
+        std::any_of(object.shaders.begin(), object.shaders.end(),
+                    [](const ShaderProgram* p) { return p->may_be_transparent; });
+    object.may_tint_shadows =
+        std::any_of(object.shaders.begin(), object.shaders.end(),
+                    [](const ShaderProgram* p) { return p->may_tint_shadows; });
     scene_->objects.push_back(std::move(object));
 }
 
-std::vector<const ShaderProgram*> Compiler::shaders_of(const NodeInstance& node, const NodeInstance& source) {
+std::vector<const ShaderProgram*> Compiler::shaders_of(const NodeInstance& node,
+                                                       const NodeInstance& source) {
     Array<NodeRef> refs = source.type().shape_common(source.block())->shader;
     if (node.is_set("shader")) refs = node.type().shape_common(node.block())->shader;
     NodeRef over;
@@ -173,7 +206,8 @@ const LightSampler* Compiler::lights_of(const NodeInstance& node) {
     if (!common.use_light_group) return scene_->light_samplers[0].get();
     std::vector<std::uint32_t> subset;
     for (const NodeRef& ref : common.light_group.first_key())
-        if (const auto found = light_index_.find(ref.node); found != light_index_.end()) subset.push_back(found->second);
+        if (const auto found = light_index_.find(ref.node); found != light_index_.end())
+            subset.push_back(found->second);
     std::sort(subset.begin(), subset.end());
     subset.erase(std::unique(subset.begin(), subset.end()), subset.end());
     const LightSampler*& sampler = samplers_by_group_[subset];
@@ -192,7 +226,8 @@ std::vector<bool> Compiler::shadow_lights_of(const NodeInstance& node) {
     if (!common.use_shadow_group) return {};
     std::vector<bool> out(scene_->lights.size(), false);
     for (const NodeRef& ref : common.shadow_group.first_key())
-        if (const auto found = light_index_.find(ref.node); found != light_index_.end()) out[found->second] = true;
+        if (const auto found = light_index_.find(ref.node); found != light_index_.end())
+            out[found->second] = true;
     return out;
 }
 

@@ -61,7 +61,8 @@ class Compiler {
     void make_shapes();
     void place_shape(const NodeInstance& node);
     [[nodiscard]] const ShapeGeometry* shared_geometry(const NodeInstance& node);
-    [[nodiscard]] std::vector<const ShaderProgram*> shaders_of(const NodeInstance& node, const NodeInstance& source);
+    [[nodiscard]] std::vector<const ShaderProgram*> shaders_of(const NodeInstance& node,
+                                                               const NodeInstance& source);
     [[nodiscard]] const LightSampler* lights_of(const NodeInstance& node);
     [[nodiscard]] std::vector<bool> shadow_lights_of(const NodeInstance& node);
     void resample_motion(ShapeGeometry& geometry, MotionRange range) const;
@@ -97,7 +98,7 @@ class Compiler {
     std::map<const NodeInstance*, const ShapeGeometry*> geometry_by_node_;
     std::map<const NodeInstance*, std::uint32_t> light_index_;
     std::map<std::vector<std::uint32_t>, const LightSampler*> samplers_by_group_;
-    std::set<ShaderProgram*> surface_shaders_;      ///< shaders that shapes use: these make events
+    std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
     std::map<Event, std::uint32_t> event_index_;
     const ShaderProgram* default_shader_ = nullptr;
 };
@@ -105,14 +106,21 @@ class Compiler {
 /// What a node may ask of the compiler.
 class CompileContext final : public NodeContext {
   public:
-    CompileContext(Compiler& compiler, const NodeInstance* node, Name name) : compiler_(compiler), node_(node), name_(name) {}
+    CompileContext(Compiler& compiler, const NodeInstance* node, Name name)
+        : compiler_(compiler), node_(node), name_(name) {}
     Diagnostics& diagnostics() override { return compiler_.diagnostics(); }
-    SourceSpan where(Name param) const override { return node_ == nullptr ? SourceSpan{} : node_->where(param); }
+    SourceSpan where(Name param) const override {
+        return node_ == nullptr ? SourceSpan{} : node_->where(param);
+    }
     Name node_name() const override { return name_; }
     ColorInput color_input(Name param) override;
-    bool is_linked(Name param) const override { return node_ != nullptr && node_->is_linked(param); }
+    bool is_linked(Name param) const override {
+        return node_ != nullptr && node_->is_linked(param);
+    }
     TextureCache& textures() override { return compiler_.textures(); }
-    std::optional<std::string> find_asset(std::string_view filename) const override { return compiler_.assets().find(filename); }
+    std::optional<std::string> find_asset(std::string_view filename) const override {
+        return compiler_.assets().find(filename);
+    }
     bool ignore_missing_textures() const override { return compiler_.ignore_missing_textures(); }
     Frame frame() const override;
     std::unique_ptr<ShapeGeometry> geometry_of(NodeRef shape, Mat4f& world_from_object) override;

@@ -14,7 +14,7 @@ enum class Fault : std::uint8_t {
     DrawnLobeTakesAll,      ///< the lobe that a direction was drawn from takes the whole sample
     TransmissionAsDiffuse,  ///< specular transmission makes the event TD
     LightHitAsObject,       ///< a light that a ray met counts as an emissive object
-    DepthFromDrawnLobe,     ///< depth counters and ray type go by the lobe that a direction was drawn from
+    DepthFromDrawnLobe,  ///< depth counters and ray type go by the lobe that a direction was drawn from
 };
 
 #ifdef LIGHTSIEVE_FAULT_INJECTION

@@ -15,7 +15,10 @@ void add_to(std::array<double, 3>& sum, Color value, double factor) {
     sum[2] += double{value.b} * factor;
 }
 
-bool is_light(LayerSource source) { return source == LayerSource::Beauty || source == LayerSource::Expression || source == LayerSource::Black; }
+bool is_light(LayerSource source) {
+    return source == LayerSource::Beauty || source == LayerSource::Expression ||
+           source == LayerSource::Black;
+}
 
 }  // namespace
 
@@ -23,7 +26,8 @@ void Film::begin(const Pass& pass, int width, int height) {
     width_ = width;
     height_ = height;
     const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    wants_data_ = std::any_of(plan_.layers.begin(), plan_.layers.end(), [](const PlannedLayer& l) { return !is_light(l.source); });
+    wants_data_ = std::any_of(plan_.layers.begin(), plan_.layers.end(),
+                              [](const PlannedLayer& l) { return !is_light(l.source); });
     const lpe::Program& program = *plan_.program;
     const std::size_t n_keys = program.film_stores_atoms() ? program.n_atoms() : program.n_aovs();
     views_.resize(pass.views.size());
@@ -50,13 +54,16 @@ std::vector<Film::Sum>& Film::slot(ViewSums& sums, std::uint32_t key) {
     if (at < 0) {
         at = static_cast<std::int32_t>(sums.n_slots++);
         if (sums.slots.size() < sums.n_slots) sums.slots.emplace_back();
-        sums.slots[static_cast<std::size_t>(at)].assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), {});
+        sums.slots[static_cast<std::size_t>(at)].assign(
+            static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), {});
     }
     return sums.slots[static_cast<std::size_t>(at)];
 }
 
-void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offset, std::span<const float> weights) {
-    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offset,
+               std::span<const float> weights) {
+    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                              static_cast<std::size_t>(x);
     for (std::size_t i = 0; i < views_.size(); ++i) {
         ViewSums& sums = views_[i];
         const double weight = double{weights[i]};
@@ -72,13 +79,15 @@ void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offs
     }
 }
 
-void Film::add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp, double weight) {
+void Film::add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp,
+                     double weight) {
     add_to(sums.beauty[pixel], sample.beauty, clamp * weight);
     add_to_atoms(sums, pixel, sample.contributions, clamp * weight);
     add_to_atoms(sums, pixel, sample.probes, weight);
 }
 
-void Film::add_to_atoms(ViewSums& sums, std::size_t pixel, std::span<const SampleBuffer::Contribution> contributions, double factor) {
+void Film::add_to_atoms(ViewSums& sums, std::size_t pixel,
+                        std::span<const SampleBuffer::Contribution> contributions, double factor) {
     const lpe::Program& program = *plan_.program;
     const bool atoms = program.film_stores_atoms();
     for (const SampleBuffer::Contribution& c : contributions) {
@@ -91,7 +100,8 @@ void Film::add_to_atoms(ViewSums& sums, std::size_t pixel, std::span<const Sampl
     }
 }
 
-void Film::add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp, Vec2f offset) {
+void Film::add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample,
+                          double clamp, Vec2f offset) {
     // Samples inside the filter compete by depth; a sample outside of it only stands in for none at all.
     const float radius = plan_.views[sums.view].filter->radius();
     const bool inside = std::max(std::abs(offset.x), std::abs(offset.y)) <= radius;
@@ -109,7 +119,9 @@ void Film::add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer&
 
 void Film::add_data(ViewSums& sums, std::size_t pixel, const FirstHit& f, double weight) {
     if (!f.hit) return;
-    const std::array<float, 9> values{f.depth, f.normal.x, f.normal.y, f.normal.z, f.position.x, f.position.y, f.position.z, f.uv.x, f.uv.y};
+    const std::array<float, 9> values{f.depth,      f.normal.x,   f.normal.y,
+                                      f.normal.z,   f.position.x, f.position.y,
+                                      f.position.z, f.uv.x,       f.uv.y};
     for (std::size_t i = 0; i < values.size(); ++i)
         sums.data[pixel][i] += double{values[i]} * weight;
     add_to(sums.opacity[pixel], f.opacity, weight);
@@ -125,7 +137,9 @@ double Film::norm_of(const ViewSums& sums, std::size_t pixel) const {
     // Dividing by the sum of weights keeps even surfaces even. Those of a filter with negative lobes may nearly cancel when
     // samples are few; their mean is 1, so the count serves then.
     constexpr double kLeastMeanWeight = 0.25;
-    if (plan_.views[sums.view].is_signed && sums.weight[pixel] < kLeastMeanWeight * sums.count[pixel]) return 1.0 / sums.count[pixel];
+    if (plan_.views[sums.view].is_signed &&
+        sums.weight[pixel] < kLeastMeanWeight * sums.count[pixel])
+        return 1.0 / sums.count[pixel];
     return sums.weight[pixel] > 0 ? 1 / sums.weight[pixel] : 0;
 }
 
@@ -143,7 +157,8 @@ void Film::resolve(const PlannedLayer& layer, std::vector<float>& out) const {
     resolve_data(sums, layer, out);
 }
 
-void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer, std::vector<float>& out) const {
+void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer,
+                         std::vector<float>& out) const {
     const lpe::Program& program = *plan_.program;
     // The slots whose sum is this layer, in the order of their atoms: the sum must not depend on which came first.
     std::vector<const std::vector<Sum>*> parts;
@@ -151,8 +166,11 @@ void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer, std::v
     if (layer.source == LayerSource::Expression)
         for (std::uint32_t key = 0; key < sums.slot_of.size(); ++key) {
             if (sums.slot_of[key] < 0) continue;
-            const std::span<const std::uint32_t> aovs = program.film_stores_atoms() ? program.aovs_of(key) : std::span<const std::uint32_t>(&key, 1);
-            if (std::find(aovs.begin(), aovs.end(), layer.aov) != aovs.end()) parts.push_back(&sums.slots[static_cast<std::size_t>(sums.slot_of[key])]);
+            const std::span<const std::uint32_t> aovs =
+                program.film_stores_atoms() ? program.aovs_of(key)
+                                            : std::span<const std::uint32_t>(&key, 1);
+            if (std::find(aovs.begin(), aovs.end(), layer.aov) != aovs.end())
+                parts.push_back(&sums.slots[static_cast<std::size_t>(sums.slot_of[key])]);
         }
     const std::size_t n = sums.beauty.size(), channels = layer.info.n_channels;
     for (std::size_t i = 0; i < n; ++i) {
@@ -163,7 +181,9 @@ void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer, std::v
                 total[c] += (*part)[i][c];
         float* at = &out[i * channels];
         if (channels == 1) {
-            at[0] = luminance(Color(static_cast<float>(total[0] * norm), static_cast<float>(total[1] * norm), static_cast<float>(total[2] * norm)));
+            at[0] = luminance(Color(static_cast<float>(total[0] * norm),
+                                    static_cast<float>(total[1] * norm),
+                                    static_cast<float>(total[2] * norm)));
             continue;
         }
         for (std::size_t c = 0; c < 3; ++c)
@@ -172,13 +192,19 @@ void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer, std::v
     }
 }
 
-void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer, std::vector<float>& out) const {
+void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer,
+                        std::vector<float>& out) const {
     const std::size_t channels = layer.info.n_channels;
     for (std::size_t i = 0; i < sums.weight.size(); ++i) {
         const FirstHit& f = sums.nearest[i];
         const double norm = norm_of(sums, i);
-        const auto value = [&](std::size_t index, float nearest) { return sums.closest ? nearest : static_cast<float>(sums.data[i][index] * norm); };
-        const auto opacity = [&](std::size_t c) { return sums.closest ? f.opacity[static_cast<int>(c)] : static_cast<float>(sums.opacity[i][c] * norm); };
+        const auto value = [&](std::size_t index, float nearest) {
+            return sums.closest ? nearest : static_cast<float>(sums.data[i][index] * norm);
+        };
+        const auto opacity = [&](std::size_t c) {
+            return sums.closest ? f.opacity[static_cast<int>(c)]
+                                : static_cast<float>(sums.opacity[i][c] * norm);
+        };
         float* at = &out[i * channels];
         switch (layer.source) {
             case LayerSource::Depth: at[0] = value(0, f.depth); break;

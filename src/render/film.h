@@ -19,8 +19,8 @@ namespace lightsieve {
 /// What the camera ray met first; for layers that are no light.
 struct FirstHit {
     bool hit = false;
-    float depth = 0;             ///< along the viewing axis
-    Vec3f normal, position;      ///< world space
+    float depth = 0;         ///< along the viewing axis
+    Vec3f normal, position;  ///< world space
     Vec2f uv;
     std::uint32_t id = 0;
     Color opacity;
@@ -58,7 +58,8 @@ class Film {
     /// scale    factor of clamping on all light
     /// offset   of the sample from the pixel's centre [pixels]
     /// weights  one a view of the pass: the filter's value over the sampling density
-    void add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offset, std::span<const float> weights);
+    void add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offset,
+             std::span<const float> weights);
     /// Values of a layer for the whole bucket: height * width * n_channels floats, row by row.
     void resolve(const PlannedLayer& layer, std::vector<float>& out) const;
 
@@ -71,30 +72,35 @@ class Film {
         std::uint32_t view = 0;
         std::vector<Sum> beauty;
         std::vector<double> alpha;
-        std::vector<double> weight;               ///< sum of filter weights a pixel
-        std::vector<std::uint32_t> count;         ///< samples a pixel
-        std::vector<std::int32_t> slot_of;        ///< by atom (or AOV): -1 until light falls into it
+        std::vector<double> weight;         ///< sum of filter weights a pixel
+        std::vector<std::uint32_t> count;   ///< samples a pixel
+        std::vector<std::int32_t> slot_of;  ///< by atom (or AOV): -1 until light falls into it
         std::vector<std::vector<Sum>> slots;
         std::size_t n_slots = 0;
         /// Data layers: means under a filter, or the nearest sample.
         std::vector<std::array<double, 9>> data;  ///< depth, normal, position, uv
         std::vector<Sum> opacity;
         std::vector<FirstHit> nearest;
-        std::vector<float> nearest_rank;           ///< the smaller the nearer
+        std::vector<float> nearest_rank;  ///< the smaller the nearer
         bool closest = false;
     };
     std::vector<Sum>& slot(ViewSums& sums, std::uint32_t key);
     /// clamp, weight  factors of clamping and of the filter
-    void add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp, double weight);
-    void add_to_atoms(ViewSums& sums, std::size_t pixel, std::span<const SampleBuffer::Contribution> contributions, double factor);
+    void add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp,
+                   double weight);
+    void add_to_atoms(ViewSums& sums, std::size_t pixel,
+                      std::span<const SampleBuffer::Contribution> contributions, double factor);
     void add_data(ViewSums& sums, std::size_t pixel, const FirstHit& hit, double weight);
     /// For a filter that keeps the nearest sample: lets it take the pixel if it is that.
-    void add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp, Vec2f offset);
+    void add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample,
+                        double clamp, Vec2f offset);
     /// What a pixel's sums are multiplied by to become means.
     [[nodiscard]] double norm_of(const ViewSums& sums, std::size_t pixel) const;
     [[nodiscard]] const ViewSums& sums_of(std::uint32_t view) const;
-    void resolve_light(const ViewSums& sums, const PlannedLayer& layer, std::vector<float>& out) const;
-    void resolve_data(const ViewSums& sums, const PlannedLayer& layer, std::vector<float>& out) const;
+    void resolve_light(const ViewSums& sums, const PlannedLayer& layer,
+                       std::vector<float>& out) const;
+    void resolve_data(const ViewSums& sums, const PlannedLayer& layer,
+                      std::vector<float>& out) const;
 
     const AovPlan& plan_;
     std::vector<ViewSums> views_;

@@ -38,7 +38,9 @@ Terminal any_object(const Scene& scene) {
 }  // namespace
 
 template <class Tracker>
-void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time, const Mat4f& camera_from_world, const Sampler& sampler, SampleBuffer& out) {
+void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
+                                const Mat4f& camera_from_world, const Sampler& sampler,
+                                SampleBuffer& out) {
     // The camera event: one share of throughput.
     sampler_ = &sampler;
     out_ = &out;
@@ -57,7 +59,8 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time, const M
         // Find the next surface, and the lights before it.
         choose_mask_group();
         if (exit_pending_) add_exit_background(ray);
-        lights_only_ = std::all_of(groups_.all().begin(), groups_.all().end(), [](const PathGroup& g) { return g.key.lights_only; });
+        lights_only_ = std::all_of(groups_.all().begin(), groups_.all().end(),
+                                   [](const PathGroup& g) { return g.key.lights_only; });
         RayHit hit;
         ++counts.rays;
         const bool met = scene_.accel->intersect(ray, ray_mask(), hit);
@@ -100,7 +103,8 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time, const M
         }
 
         // Direct light, value by lobe; then a direction from the mixture, and every share splits over the lobes.
-        const std::array<Vec2f, 4> points = sampler.at2x4(kFirstPair + segment_ * kPairsPerSegment);
+        const std::array<Vec2f, 4> points =
+            sampler.at2x4(kFirstPair + segment_ * kPairsPerSegment);
         points_ = {points[0], points[1], points[2], points[3]};
         choose_probabilities();
         if (n_channels_ > 0 && !all_delta_) add_light_samples(surface);
@@ -115,7 +119,9 @@ void Integrator<Tracker>::choose_mask_group() {
     if (groups.size() < 2 || scene_.mask_types == 0) return;
     const auto kind = [&](const PathGroup& g) { return bit_of(g) & scene_.mask_types; };
     const std::uint32_t first = kind(groups[0]);
-    if (std::all_of(groups.begin(), groups.end(), [&](const PathGroup& g) { return kind(g) == first; })) return;
+    if (std::all_of(groups.begin(), groups.end(),
+                    [&](const PathGroup& g) { return kind(g) == first; }))
+        return;
     float total = 0;
     for (const PathGroup& g : groups)
         total += luminance(g.throughput);
@@ -139,7 +145,8 @@ std::uint32_t Integrator<Tracker>::ray_mask() const {
 
 /// Factor on a light by the event before it: its contribution multipliers.
 template <class Tracker>
-float Integrator<Tracker>::light_factor(const LightCommon& light, RayType type, int n_scatter) const {
+float Integrator<Tracker>::light_factor(const LightCommon& light, RayType type,
+                                        int n_scatter) const {
     if (n_scatter - 1 > light.max_bounces) return 0;
     const float indirect = n_scatter > 1 ? light.indirect : 1;
     switch (type) {
@@ -156,7 +163,9 @@ float Integrator<Tracker>::light_factor(const LightCommon& light, RayType type, 
 template <class Tracker>
 float Integrator<Tracker>::clamp_factor(Color total, int n_scatter) const {
     const float largest = max_component(total);
-    return n_scatter > 1 && largest > scene_.settings.indirect_clamp ? scene_.settings.indirect_clamp / largest : 1;
+    return n_scatter > 1 && largest > scene_.settings.indirect_clamp
+               ? scene_.settings.indirect_clamp / largest
+               : 1;
 }
 
 /// Notes a contribution that is not finite; it is left out.
@@ -202,14 +211,16 @@ bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
     Ray rest = ray;
     rest.t_max = t_surface * (1 + kCoplanar);
     RayHit hit;
-    for (int i = 0; i < kMaxLightsAlongRay && scene_.light_accel->intersect(rest, 0xffffffffU, hit); ++i) {
+    for (int i = 0;
+         i < kMaxLightsAlongRay && scene_.light_accel->intersect(rest, 0xffffffffU, hit); ++i) {
         const std::uint32_t index = scene_.light_of_object[hit.object];
         const SceneLight& light = scene_.lights[index];
         const LightHit at = make_light_hit(scene_.light_objects[hit.object], ray, hit);
         rest.t_min = std::nextafter(hit.t, kInfinity);
         Terminal terminal{light.as_light, light.light_event};
 #ifdef LIGHTSIEVE_FAULT_INJECTION
-        if (active_fault() == Fault::LightHitAsObject && n_scatter_ > 0) terminal = any_object(scene_);
+        if (active_fault() == Fault::LightHitAsObject && n_scatter_ > 0)
+            terminal = any_object(scene_);
 #endif
         if (n_scatter_ == 0) {
             // Seen directly: the light stands in the picture as far as its `camera` says.
@@ -228,25 +239,31 @@ bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
         }
         LightHit seen_from = at;
         seen_from.distance = length(at.position - last_.position);
-        add_met_light(index, light.light->hit(last_.position, seen_from), terminal, ray, hit.t * (1 - kShadowEpsilon));
+        add_met_light(index, light.light->hit(last_.position, seen_from), terminal, ray,
+                      hit.t * (1 - kShadowEpsilon));
     }
     return false;
 }
 
 /// Light that a ray from the last vertex met by chance: the twin of a light sample, and weighted against it.
 template <class Tracker>
-void Integrator<Tracker>::add_met_light(std::uint32_t index, const LightEval& eval, Terminal terminal, const Ray& ray, float distance) {
+void Integrator<Tracker>::add_met_light(std::uint32_t index, const LightEval& eval,
+                                        Terminal terminal, const Ray& ray, float distance) {
     const SceneLight& light = scene_.lights[index];
-    if (is_black(eval.radiance) || (!last_.delta && (light.samples_only || last_.samples_only))) return;
+    if (is_black(eval.radiance) || (!last_.delta && (light.samples_only || last_.samples_only)))
+        return;
     const float pick = last_.lights->probability(last_.position, last_.pick_normal, index);
     if (!(pick > 0)) return;  // in the dark by its own bounds, or not in the shape's light group
-    Color arriving = eval.radiance * (last_.delta ? 1 : power_heuristic(last_.pdf, pick * eval.pdf));
+    Color arriving =
+        eval.radiance * (last_.delta ? 1 : power_heuristic(last_.pdf, pick * eval.pdf));
     if (by_shadow_rays()) {
         Ray shadow = ray;
         shadow.t_max = distance;
         arriving *= visibility_along(shadow, nullptr).straight;
     }
-    deposit(terminal, [&](std::size_t g) { return arriving * light_factor(light.common, groups_[g].key.ray_type, n_scatter_); });
+    deposit(terminal, [&](std::size_t g) {
+        return arriving * light_factor(light.common, groups_[g].key.ray_type, n_scatter_);
+    });
 }
 
 /// Where shadow rays see other shapes than other rays do, they decide for both twins what hides a light.
@@ -262,14 +279,21 @@ float Integrator<Tracker>::add_infinite_lights(const Ray& ray) {
     for (const std::uint32_t index : scene_.infinite_lights) {
         const SceneLight& light = scene_.lights[index];
         const LightEval eval = light.light->escape(ray.direction);
-        if (n_scatter_ == 0 && light.common.camera > 0) alpha = std::max(alpha, eval.pdf > 0 || !is_black(eval.radiance) || light.is_skydome ? std::min(light.common.camera, 1.0F) : 0.0F);
+        if (n_scatter_ == 0 && light.common.camera > 0)
+            alpha = std::max(alpha, eval.pdf > 0 || !is_black(eval.radiance) || light.is_skydome
+                                        ? std::min(light.common.camera, 1.0F)
+                                        : 0.0F);
         // A skydome seen directly is background, and so is the light of one with aov_indirect.
         const bool background = light.is_skydome && (n_scatter_ == 0 || light.common.aov_indirect);
-        const Terminal terminal = background ? Terminal{light.as_background, light.background_event} : Terminal{light.as_light, light.light_event};
+        const Terminal terminal = background
+                                      ? Terminal{light.as_background, light.background_event}
+                                      : Terminal{light.as_light, light.light_event};
         if (n_scatter_ > 0) {
             add_met_light(index, eval, terminal, ray, kInfinity);
         } else if (!is_black(eval.radiance)) {
-            deposit(terminal, [&](std::size_t) { return eval.radiance * light_factor(light.common, RayType::Camera, 0); });
+            deposit(terminal, [&](std::size_t) {
+                return eval.radiance * light_factor(light.common, RayType::Camera, 0);
+            });
         }
     }
     return alpha;
@@ -281,8 +305,12 @@ void Integrator<Tracker>::add_escape(const Ray& ray) {
     float alpha = by_shadow_rays() ? 0 : add_infinite_lights(ray);
     if (scene_.background != nullptr && !lights_only_) {
         const Color radiance = background_along(ray);
-        const auto visible = [&](std::size_t g) { return (scene_.background_visibility & bit_of(groups_[g])) != 0 && !groups_[g].key.lights_only; };
-        deposit({scene_.background_record.terminal, scene_.background_record.event}, [&](std::size_t g) { return visible(g) ? radiance : kBlack; });
+        const auto visible = [&](std::size_t g) {
+            return (scene_.background_visibility & bit_of(groups_[g])) != 0 &&
+                   !groups_[g].key.lights_only;
+        };
+        deposit({scene_.background_record.terminal, scene_.background_record.event},
+                [&](std::size_t g) { return visible(g) ? radiance : kBlack; });
         if (n_scatter_ == 0 && visible(0)) alpha = 1;
     }
     if (n_scatter_ == 0) out_->alpha += average(passed_) * alpha;
@@ -294,8 +322,12 @@ void Integrator<Tracker>::add_exit_background(const Ray& ray) {
     exit_pending_ = false;
     if (scene_.background == nullptr) return;
     const Color radiance = background_along(ray);
-    deposit({scene_.background_record.terminal, scene_.background_record.event},
-            [&](std::size_t g) { return groups_[g].key.exits && (scene_.background_visibility & bit_of(groups_[g])) != 0 ? radiance : kBlack; });
+    deposit(
+        {scene_.background_record.terminal, scene_.background_record.event}, [&](std::size_t g) {
+            return groups_[g].key.exits && (scene_.background_visibility & bit_of(groups_[g])) != 0
+                       ? radiance
+                       : kBlack;
+        });
 }
 
 template <class Tracker>
@@ -304,7 +336,8 @@ Color Integrator<Tracker>::background_along(const Ray& ray) const {
     at.direction = ray.direction;
     at.wo = -ray.direction;
     at.ray_type = groups_[0].key.ray_type;
-    at.uv = {0.5F - std::atan2(ray.direction.x, ray.direction.z) * (0.5F * kInvPi), 0.5F + std::asin(std::clamp(ray.direction.y, -1.0F, 1.0F)) * kInvPi};
+    at.uv = {0.5F - std::atan2(ray.direction.x, ray.direction.z) * (0.5F * kInvPi),
+             0.5F + std::asin(std::clamp(ray.direction.y, -1.0F, 1.0F)) * kInvPi};
     return scene_.background->value(at).rgb;
 }
 
@@ -314,13 +347,20 @@ void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& ca
     const Color opacity = clamp(kWhite - closures_.transparency(), 0, 1);
     out_->alpha += average(passed_ * clamp(opacity - closures_.matte(), 0, 1));
     if (out_->first.hit || is_black(opacity)) return;
-    out_->first = {true, -camera_from_world.point(surface.at.position).z, surface.at.normal, surface.at.position, surface.at.uv, surface.object->id, opacity};
+    out_->first = {true,
+                   -camera_from_world.point(surface.at.position).z,
+                   surface.at.normal,
+                   surface.at.position,
+                   surface.at.uv,
+                   surface.object->id,
+                   opacity};
 }
 
 template <class Tracker>
 void Integrator<Tracker>::add_emission() {
     for (const Emission& e : closures_.emissions())
-        deposit({e.record->terminal, e.record->event}, [&](std::size_t g) { return groups_[g].key.lights_only ? kBlack : e.radiance; });
+        deposit({e.record->terminal, e.record->event},
+                [&](std::size_t g) { return groups_[g].key.lights_only ? kBlack : e.radiance; });
 }
 
 /// Lobes that make one event become one channel.
@@ -336,7 +376,8 @@ void Integrator<Tracker>::gather_channels() {
         std::size_t c = 0;
         while (c < n_channels_ && !channels_[c].matches(closures[i]))
             ++c;
-        if (c == n_channels_) channels_[n_channels_++] = {closures[i].record, closures[i].caustics};
+        if (c == n_channels_)
+            channels_[n_channels_++] = {closures[i].record, closures[i].caustics};
         channel_of_[i] = static_cast<std::uint8_t>(c);
     }
 }
@@ -347,8 +388,14 @@ void Integrator<Tracker>::add_probes() {
     const std::span<Color> albedo = cleared_values();
     for (std::size_t i = 0; i < closures_.closures().size(); ++i)
         albedo[channel_of_[i]] += closures_.albedo(i);
-    tracker_.add_scattered(std::span(channels_.data(), n_channels_), {scene_.probe, scene_.probe_event},
-                           [&](std::size_t g, std::size_t c) { return groups_[g].key.lights_only || !channel_allowed(groups_[g].key, channels_[c]) ? kBlack : albedo[c]; }, 1);
+    tracker_.add_scattered(
+        std::span(channels_.data(), n_channels_), {scene_.probe, scene_.probe_event},
+        [&](std::size_t g, std::size_t c) {
+            return groups_[g].key.lights_only || !channel_allowed(groups_[g].key, channels_[c])
+                       ? kBlack
+                       : albedo[c];
+        },
+        1);
 }
 
 /// How likely each closure, or passing straight through, is drawn: by what it can carry on.
@@ -358,7 +405,8 @@ void Integrator<Tracker>::choose_probabilities() {
     const std::span<Color> reach = cleared_values();
     for (std::size_t c = 0; c < n_channels_; ++c)
         for (const PathGroup& g : groups_.all())
-            if (!g.key.lights_only && channel_allowed(g.key, channels_[c])) reach[c] += g.throughput;
+            if (!g.key.lights_only && channel_allowed(g.key, channels_[c]))
+                reach[c] += g.throughput;
     float total = 0;
     const std::size_t n = n_channels_ > 0 ? closures_.closures().size() : 0;
     if (n == 1 && is_black(closures_.transparency())) {
@@ -372,7 +420,8 @@ void Integrator<Tracker>::choose_probabilities() {
         total += probability_[i];
     }
     const bool may_pass = n_transparent_ < scene_.settings.auto_transparency_depth;
-    const float through = may_pass ? std::max(0.0F, luminance(groups_.total() * closures_.transparency())) : 0;
+    const float through =
+        may_pass ? std::max(0.0F, luminance(groups_.total() * closures_.transparency())) : 0;
     const float sum = total + through;
     pass_probability_ = sum > 0 ? through / sum : 0;
     for (std::size_t i = 0; i < n; ++i)
@@ -380,7 +429,8 @@ void Integrator<Tracker>::choose_probabilities() {
 }
 
 template <class Tracker>
-float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi, std::span<Color> by_channel) const {
+float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi,
+                                    std::span<Color> by_channel) const {
     // No light leaks through: both normals must agree on which side of the surface wi leaves.
     const bool sides_agree = (dot(wi, surface.outward) > 0) == (dot(wi, surface.at.normal) > 0);
     const std::span<const Closure> closures = closures_.closures();
@@ -421,19 +471,23 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
     const Color to_specular = arriving * visible.straight * weight;
     const Color to_diffuse = to_specular + arriving * (visible.tinted - visible.straight);
     const bool background = light.is_skydome && light.common.aov_indirect;
-    const Terminal terminal = background ? Terminal{light.as_background, light.background_event} : Terminal{light.as_light, light.light_event};
+    const Terminal terminal = background ? Terminal{light.as_background, light.background_event}
+                                         : Terminal{light.as_light, light.light_event};
     deposit_scattered(terminal, [&](std::size_t g, std::size_t c) {
         const GroupKey& key = groups_[g].key;
         if (key.lights_only || !channel_allowed(key, channels_[c])) return kBlack;
         const LobeRecord& record = *channels_[c].record;
         const Color incident = record.lobe == EventLobe::Specular ? to_specular : to_diffuse;
-        return value[c] * incident * light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface), n_scatter_ + 1);
+        return value[c] * incident *
+               light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface),
+                            n_scatter_ + 1);
     });
 }
 
 /// low_light_threshold: how likely a light sample that brings less than the threshold is worth its shadow ray.
 template <class Tracker>
-float Integrator<Tracker>::low_light_survival(std::span<const Color> by_channel, const SceneLight& light, Color incident) const {
+float Integrator<Tracker>::low_light_survival(std::span<const Color> by_channel,
+                                              const SceneLight& light, Color incident) const {
     const float threshold = scene_.settings.low_light_threshold;
     if (!(threshold > 0)) return 1;
     Color brought;
@@ -441,20 +495,25 @@ float Integrator<Tracker>::low_light_survival(std::span<const Color> by_channel,
         for (std::size_t c = 0; c < n_channels_; ++c) {
             if (group.key.lights_only || !channel_allowed(group.key, channels_[c])) continue;
             const LobeRecord& record = *channels_[c].record;
-            brought += group.throughput * by_channel[c] * incident * light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface), n_scatter_ + 1);
+            brought += group.throughput * by_channel[c] * incident *
+                       light_factor(light.common,
+                                    ray_type_of(record.kind, record.lobe, record.subsurface),
+                                    n_scatter_ + 1);
         }
     const float brightest = max_component(brought);
     return brightest < threshold ? std::max(brightest / threshold, kLeastSurvival) : 1;
 }
 
 template <class Tracker>
-auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index, const LightSample& sample) -> Visibility {
+auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index,
+                                     const LightSample& sample) -> Visibility {
     const SceneLight& light = scene_.lights[index];
     const SceneObject& object = *surface.object;
     if (!light.common.cast_shadows || !object.receive_shadows) return {kWhite, kWhite};
     if (!object.shadow_lights.empty() && !object.shadow_lights[index]) return {kWhite, kWhite};
     const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
-    Ray ray{offset_ray_origin(surface.at.position, side), sample.wi, 0, sample.distance * (1 - kShadowEpsilon), surface.at.time};
+    Ray ray{offset_ray_origin(surface.at.position, side), sample.wi, 0,
+            sample.distance * (1 - kShadowEpsilon), surface.at.time};
     Visibility out = visibility_along(ray, object.self_shadows ? nullptr : &object);
     if (light.common.shadow_density == 1 && is_black(light.common.shadow_color)) return out;
     for (Color* through : {&out.straight, &out.tinted}) {
@@ -474,13 +533,17 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -
     if (ignore == nullptr && !scene_.has_transparency) return out;
     // The limit counts surfaces that weaken the light; the object itself is passed as often as it takes.
     int guard = 0;
-    for (int passed = 0; passed <= scene_.settings.auto_transparency_depth && guard < static_cast<int>(kMaxSegments); ++guard) {
+    for (int passed = 0; passed <= scene_.settings.auto_transparency_depth &&
+                         guard < static_cast<int>(kMaxSegments);
+         ++guard) {
         RayHit hit;
         ++counts.rays;
-        if (!scene_.accel->intersect(ray, ignore == nullptr ? kMaskShadowTransparent : both, hit)) return out;
+        if (!scene_.accel->intersect(ray, ignore == nullptr ? kMaskShadowTransparent : both, hit))
+            return out;
         const SceneObject& object = scene_.objects[hit.object];
         const Surface surface = make_surface(object, ray, hit, {});
-        const bool one_sided = !surface.at.entering && (object.sidedness & ray_bit(RayType::Shadow)) == 0;
+        const bool one_sided =
+            !surface.at.entering && (object.sidedness & ray_bit(RayType::Shadow)) == 0;
         if (&object != ignore && !one_sided) {
             if (!object.may_be_transparent && !object.may_tint_shadows) return dark;
             ShadePoint at = surface.at;
@@ -539,7 +602,8 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     const bool delta = closures_.delta(drawn);
     float pdf = 0;
     if (delta) {
-        if ((dot(sample.wi, surface.outward) > 0) != (dot(sample.wi, surface.at.normal) > 0)) return false;
+        if ((dot(sample.wi, surface.outward) > 0) != (dot(sample.wi, surface.at.normal) > 0))
+            return false;
         factors[channel_of_[drawn]] = sample.f * (1 / probability_[drawn]);
     } else {
         pdf = evaluate(surface, sample.wi, factors);
@@ -568,18 +632,25 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
 #ifdef LIGHTSIEVE_FAULT_INJECTION
     std::array<Channel, kMaxChannels> as_drawn;
     as_drawn.fill(channels_[channel_of_[drawn]]);
-    if (active_fault() == Fault::DepthFromDrawnLobe) counted = std::span<const Channel>(as_drawn.data(), n_channels_);
+    if (active_fault() == Fault::DepthFromDrawnLobe)
+        counted = std::span<const Channel>(as_drawn.data(), n_channels_);
 #endif
     groups_.scatter(counted, factors, scene_.depth_rules, draw, step);
     tracker_.scatter(channels, factors, step, draw);
     ++n_scatter_;
     if (is_black(groups_.total())) return false;
     if (!survives_roulette()) return false;
-    exit_pending_ = std::any_of(groups_.all().begin(), groups_.all().end(), [](const PathGroup& g) { return g.key.exits; });
+    exit_pending_ = std::any_of(groups_.all().begin(), groups_.all().end(),
+                                [](const PathGroup& g) { return g.key.exits; });
 
     const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
-    last_ = {surface.at.position, transmissive_ ? Vec3f{0, 0, 0} : surface.outward, surface.object->lights, pdf, delta,
-             surface.object->tampers_with_shadows(), segment_ + 1};
+    last_ = {surface.at.position,
+             transmissive_ ? Vec3f{0, 0, 0} : surface.outward,
+             surface.object->lights,
+             pdf,
+             delta,
+             surface.object->tampers_with_shadows(),
+             segment_ + 1};
     footprint_.width += footprint_.spread * surface.t;
     ray = {offset_ray_origin(surface.at.position, side), sample.wi, 0, kInfinity, surface.at.time};
     return true;
@@ -588,9 +659,11 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
 /// Ends faint paths early; what survives carries more. Goes by the shares of the beauty, never by what AOVs are asked for.
 template <class Tracker>
 bool Integrator<Tracker>::survives_roulette() {
-    if (scene_.settings.roulette_depth < 0 || n_scatter_ <= scene_.settings.roulette_depth) return true;
+    if (scene_.settings.roulette_depth < 0 || n_scatter_ <= scene_.settings.roulette_depth)
+        return true;
     const float start = max_component(path_start_);
-    const float q = std::clamp(max_component(groups_.total()) / start, kLeastSurvival, kMostSurvival);
+    const float q =
+        std::clamp(max_component(groups_.total()) / start, kLeastSurvival, kMostSurvival);
     if (points_.roulette.x >= q) return false;
     groups_.scale(Color::grey(1 / q));
     tracker_.scale(Color::grey(1 / q));

@@ -21,12 +21,13 @@ namespace lightsieve {
 
 /// Counts of one thread; added up at the end.
 struct TraceCounts {
-    std::uint64_t rays = 0;             ///< closest-hit and shadow rays
-    std::uint64_t dropped = 0;          ///< contributions that were not finite
-    std::uint32_t dropped_event = kNoEvent;  ///< the last one's terminal, into Scene::events; kNoEvent: dropped while scattering
-    int dropped_depth = 0;              ///< scattering events before it
+    std::uint64_t rays = 0;     ///< closest-hit and shadow rays
+    std::uint64_t dropped = 0;  ///< contributions that were not finite
+    std::uint32_t dropped_event =
+        kNoEvent;  ///< the last one's terminal, into Scene::events; kNoEvent: dropped while scattering
+    int dropped_depth = 0;  ///< scattering events before it
     static constexpr std::uint32_t kNoEvent = UINT32_MAX;
-    std::uint64_t dropped_closures = 0; ///< closures that did not fit into a ClosureSet
+    std::uint64_t dropped_closures = 0;  ///< closures that did not fit into a ClosureSet
 };
 
 template <class Tracker>
@@ -35,7 +36,8 @@ class Integrator {
     explicit Integrator(const Scene& scene) : scene_(scene), tracker_(scene) {}
 
     /// Traces one camera sample; everything that it brings is added to `out`.
-    void trace(const CameraRay& camera_ray, float time, const Mat4f& camera_from_world, const Sampler& sampler, SampleBuffer& out);
+    void trace(const CameraRay& camera_ray, float time, const Mat4f& camera_from_world,
+               const Sampler& sampler, SampleBuffer& out);
 
     TraceCounts counts;
     [[nodiscard]] Tracker& tracker() { return tracker_; }
@@ -44,17 +46,19 @@ class Integrator {
     /// The vertex that the current ray left: what MIS must know when the ray meets a light.
     struct LastVertex {
         Vec3f position;
-        Vec3f pick_normal;                      ///< as given to the light sampler
+        Vec3f pick_normal;  ///< as given to the light sampler
         const LightSampler* lights = nullptr;
-        float pdf = 0;                          ///< of the direction, mixture of all lobes, per solid angle
-        bool delta = true;                      ///< the direction could not have come from a light sample
-        bool samples_only = false;              ///< shadows on the surface are tampered with: rays find no lights
-        std::uint32_t next_segment = 0;         ///< of the path: the first one after the vertex
+        float pdf = 0;      ///< of the direction, mixture of all lobes, per solid angle
+        bool delta = true;  ///< the direction could not have come from a light sample
+        bool samples_only =
+            false;  ///< shadows on the surface are tampered with: rays find no lights
+        std::uint32_t next_segment = 0;  ///< of the path: the first one after the vertex
     };
     /// What surfaces between a point and a light let through.
     struct Visibility {
-        Color straight;   ///< by opacity: rays that meet the light by chance see the same
-        Color tinted;     ///< with what transmissive surfaces let through to diffuse light besides; never less than `straight`
+        Color straight;  ///< by opacity: rays that meet the light by chance see the same
+        Color
+            tinted;  ///< with what transmissive surfaces let through to diffuse light besides; never less than `straight`
     };
     /// The sampler's pairs of dimensions before the path's own, and of each segment of the path.
     static constexpr std::uint32_t kFirstPair = 4, kPairsPerSegment = 4;
@@ -88,19 +92,24 @@ class Integrator {
     void drop(std::uint32_t event);
     template <class Value>
     void deposit(Terminal terminal, const Value& value);
-    void add_met_light(std::uint32_t index, const LightEval& eval, Terminal terminal, const Ray& ray, float distance);
+    void add_met_light(std::uint32_t index, const LightEval& eval, Terminal terminal,
+                       const Ray& ray, float distance);
     [[nodiscard]] bool by_shadow_rays() const;
     template <class Value>
     void deposit_scattered(Terminal terminal, const Value& value);
     /// How much light gets from the light to the surface.
-    [[nodiscard]] Visibility visibility(const Surface& surface, std::uint32_t light, const LightSample& sample);
+    [[nodiscard]] Visibility visibility(const Surface& surface, std::uint32_t light,
+                                        const LightSample& sample);
     [[nodiscard]] Visibility visibility_along(Ray ray, const SceneObject* ignore);
-    [[nodiscard]] float low_light_survival(std::span<const Color> by_channel, const SceneLight& light, Color incident) const;
+    [[nodiscard]] float low_light_survival(std::span<const Color> by_channel,
+                                           const SceneLight& light, Color incident) const;
     /// Values by channel for a direction, and the mixture's density.
     float evaluate(const Surface& surface, Vec3f wi, std::span<Color> by_channel) const;
     [[nodiscard]] float light_factor(const LightCommon& light, RayType type, int n_scatter) const;
     [[nodiscard]] float clamp_factor(Color total, int n_scatter) const;
-    [[nodiscard]] float random(std::uint32_t stream) const { return sampler_->random(hash_combine(segment_, stream)); }
+    [[nodiscard]] float random(std::uint32_t stream) const {
+        return sampler_->random(hash_combine(segment_, stream));
+    }
     /// Black for each channel of the vertex. One array for all: whoever asks next overwrites it.
     [[nodiscard]] std::span<Color> cleared_values() {
         std::fill_n(values_.begin(), n_channels_, kBlack);
@@ -116,24 +125,25 @@ class Integrator {
     SampleBuffer* out_ = nullptr;
     LastVertex last_;
     Footprint footprint_;
-    Color passed_;                ///< what transparent surfaces let through on the camera ray
-    Color path_start_;            ///< throughput at the camera, which roulette compares with
+    Color passed_;      ///< what transparent surfaces let through on the camera ray
+    Color path_start_;  ///< throughput at the camera, which roulette compares with
     std::uint32_t segment_ = 0;
-    SegmentPoints points_;        ///< of this segment
-    int n_scatter_ = 0;           ///< scattering events so far
-    int n_transparent_ = 0;       ///< transparent surfaces passed
-    bool exit_pending_ = false;   ///< the ray just left a surface past a depth limit with exit_to_background
-    bool lights_only_ = false;    ///< no share of the path may meet anything but lights
+    SegmentPoints points_;   ///< of this segment
+    int n_scatter_ = 0;      ///< scattering events so far
+    int n_transparent_ = 0;  ///< transparent surfaces passed
+    bool exit_pending_ =
+        false;  ///< the ray just left a surface past a depth limit with exit_to_background
+    bool lights_only_ = false;  ///< no share of the path may meet anything but lights
 
     // Of the current vertex.
     std::array<Channel, kMaxChannels> channels_;
     std::size_t n_channels_ = 0;
-    std::array<Color, kMaxChannels> values_;                    ///< see cleared_values
+    std::array<Color, kMaxChannels> values_;  ///< see cleared_values
     std::array<std::uint8_t, ClosureSet::kMaxClosures> channel_of_;
-    std::array<float, ClosureSet::kMaxClosures> probability_;   ///< of drawing each closure
-    float pass_probability_ = 0;                                ///< of going straight through
-    bool transmissive_ = false;                                 ///< some lobe sends light to the other side
-    bool all_delta_ = false;                                    ///< no light sample can get through any lobe
+    std::array<float, ClosureSet::kMaxClosures> probability_;  ///< of drawing each closure
+    float pass_probability_ = 0;                               ///< of going straight through
+    bool transmissive_ = false;  ///< some lobe sends light to the other side
+    bool all_delta_ = false;     ///< no light sample can get through any lobe
 };
 
 extern template class Integrator<AovTracker>;

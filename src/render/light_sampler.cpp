@@ -46,7 +46,9 @@ Float4 load(const std::array<float, 4>& lane) {
 Float4 all(float v) { return Float4{v, v, v, v}; }
 Float4 larger(Float4 a, Float4 b) { return a > b ? a : b; }
 Float4 smaller(Float4 a, Float4 b) { return a < b ? a : b; }
-Float4 root(Float4 v) { return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])}; }
+Float4 root(Float4 v) {
+    return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+}
 
 /// cos(max(0, a - b)) for angles in [0, pi].
 Float4 cos_difference(Float4 sin_a, Float4 cos_a, Float4 sin_b, Float4 cos_b) {
@@ -88,7 +90,8 @@ Cone merge(Cone a, Cone b) {
         return out;
     }
     const double turn = out.spread - a.spread;
-    out.axis = normalize(a.axis * static_cast<float>(std::cos(turn)) + normalize(side) * static_cast<float>(std::sin(turn)));
+    out.axis = normalize(a.axis * static_cast<float>(std::cos(turn)) +
+                         normalize(side) * static_cast<float>(std::sin(turn)));
     return out;
 }
 
@@ -96,7 +99,8 @@ Cone merge(Cone a, Cone b) {
 double orientation_measure(const Cone& c) {
     const double o = c.spread, w = std::min(o + c.emission, kPiDouble);
     return 2 * kPiDouble * (1 - std::cos(o)) +
-           kPiDouble / 2 * (2 * w * std::sin(o) - std::cos(o - 2 * w) - 2 * o * std::sin(o) + std::cos(o));
+           kPiDouble / 2 *
+               (2 * w * std::sin(o) - std::cos(o - 2 * w) - 2 * o * std::sin(o) + std::cos(o));
 }
 
 /// A light, or several together, while the tree is built.
@@ -114,11 +118,15 @@ struct Cluster {
     /// Cost of leaving these lights together. The squared diagonal stands in for the area of Conty Estevez and
     /// Kulla 2018, eq. 8, because lights in a row have none.
     [[nodiscard]] double cost() const {
-        return intensity > 0 ? intensity * orientation_measure(cone) * static_cast<double>(length_squared(box.size())) : 0;
+        return intensity > 0 ? intensity * orientation_measure(cone) *
+                                   static_cast<double>(length_squared(box.size()))
+                             : 0;
     }
 };
 
-double cos_to_angle(float cosine) { return std::acos(static_cast<double>(std::clamp(cosine, -1.0F, 1.0F))); }
+double cos_to_angle(float cosine) {
+    return std::acos(static_cast<double>(std::clamp(cosine, -1.0F, 1.0F)));
+}
 
 bool can_light(float strength) { return strength > 0 && std::isfinite(strength); }
 
@@ -154,7 +162,8 @@ struct LightSampler::Builder {
             if (!(extent > 0) || !std::isfinite(extent)) continue;
             const auto [cost, bucket] = best_plane(begin, end, centers, axis);
             // Thin boxes are not cut along their short side without need.
-            const double regular = static_cast<double>(size[axis] > 0 ? longest / size[axis] : 1) * cost;
+            const double regular =
+                static_cast<double>(size[axis] > 0 ? longest / size[axis] : 1) * cost;
             if (regular < best_cost) {
                 best_cost = regular;
                 best_axis = axis;
@@ -163,19 +172,23 @@ struct LightSampler::Builder {
         }
         if (best_axis < 0) return half;
         const auto middle = std::stable_partition(
-            clusters.begin() + static_cast<std::ptrdiff_t>(begin), clusters.begin() + static_cast<std::ptrdiff_t>(end),
+            clusters.begin() + static_cast<std::ptrdiff_t>(begin),
+            clusters.begin() + static_cast<std::ptrdiff_t>(end),
             [&](const Cluster& c) { return bucket_of(c, centers, best_axis) <= best_bucket; });
         const std::size_t place = static_cast<std::size_t>(middle - clusters.begin());
         return place == begin || place == end ? half : place;
     }
 
     static std::size_t bucket_of(const Cluster& c, const Box3f& centers, int axis) {
-        const float x = (c.box.center()[axis] - centers.lower[axis]) / (centers.upper[axis] - centers.lower[axis]);
-        return std::min(kBuckets - 1, static_cast<std::size_t>(std::max(0.0F, x) * static_cast<float>(kBuckets)));
+        const float x = (c.box.center()[axis] - centers.lower[axis]) /
+                        (centers.upper[axis] - centers.lower[axis]);
+        return std::min(kBuckets - 1, static_cast<std::size_t>(std::max(0.0F, x) *
+                                                               static_cast<float>(kBuckets)));
     }
 
     /// Cost of the best plane along an axis and the last bucket before it.
-    [[nodiscard]] std::pair<double, std::size_t> best_plane(std::size_t begin, std::size_t end, const Box3f& centers, int axis) const {
+    [[nodiscard]] std::pair<double, std::size_t> best_plane(std::size_t begin, std::size_t end,
+                                                            const Box3f& centers, int axis) const {
         std::array<Cluster, kBuckets> buckets{};
         for (std::size_t i = begin; i < end; ++i)
             buckets[bucket_of(clusters[i], centers, axis)].add(clusters[i]);
@@ -217,7 +230,8 @@ struct LightSampler::Builder {
             double best_doubt = -1;
             for (std::size_t i = 0; i < branches.size(); ++i) {
                 const Binary& b = binary[branches[i]];
-                const double doubt = b.all.intensity * static_cast<double>(length_squared(b.all.box.size()));
+                const double doubt =
+                    b.all.intensity * static_cast<double>(length_squared(b.all.box.size()));
                 if (b.first == 0 || !(doubt > best_doubt)) continue;
                 best = i;
                 best_doubt = doubt;
@@ -225,7 +239,8 @@ struct LightSampler::Builder {
             if (best == branches.size()) break;
             const Binary& opened = binary[branches[best]];
             branches[best] = opened.first;
-            branches.insert(branches.begin() + static_cast<std::ptrdiff_t>(best) + 1, opened.second);
+            branches.insert(branches.begin() + static_cast<std::ptrdiff_t>(best) + 1,
+                            opened.second);
         }
         return branches;
     }
@@ -273,7 +288,8 @@ struct LightSampler::Builder {
     void build() {
         const auto can_pick = [](const Place& p) { return p.kind != Place::Kind::Absent; };
         if (std::ranges::count_if(out.places_, can_pick) == 1)
-            out.lone_ = static_cast<std::uint32_t>(std::ranges::find_if(out.places_, can_pick) - out.places_.begin());
+            out.lone_ = static_cast<std::uint32_t>(std::ranges::find_if(out.places_, can_pick) -
+                                                   out.places_.begin());
         if (clusters.empty()) return;
         binary.reserve(2 * clusters.size());
         build_wide(build_binary(0, clusters.size(), 0), kNone, 0);
@@ -288,13 +304,15 @@ struct LightSampler::Builder {
             if (!can_light(irradiance)) return;
             out.places_[index].kind = Place::Kind::Infinite;
             out.places_[index].index = static_cast<std::uint32_t>(out.infinite_.size());
-            out.infinite_.push_back({bounds.axis, bounds.cos_spread, sine(bounds.cos_spread), irradiance, index});
+            out.infinite_.push_back(
+                {bounds.axis, bounds.cos_spread, sine(bounds.cos_spread), irradiance, index});
             return;
         }
         if (!can_light(bounds.intensity) || bounds.box.empty()) return;
         if (!is_finite(bounds.box.lower) || !is_finite(bounds.box.upper)) return;
         out.places_[index].kind = Place::Kind::Tree;
-        const Cone cone{bounds.axis, cos_to_angle(bounds.cos_spread), cos_to_angle(bounds.cos_emission)};
+        const Cone cone{bounds.axis, cos_to_angle(bounds.cos_spread),
+                        cos_to_angle(bounds.cos_emission)};
         clusters.push_back({bounds.box, cone, static_cast<double>(bounds.intensity), index});
     }
 };
@@ -306,7 +324,8 @@ LightSampler::LightSampler(std::span<const Light* const> lights) : places_(light
     builder.build();
 }
 
-LightSampler::LightSampler(std::span<const Light* const> lights, std::span<const std::uint32_t> subset)
+LightSampler::LightSampler(std::span<const Light* const> lights,
+                           std::span<const std::uint32_t> subset)
     : places_(lights.size()) {
     Builder builder{*this, {}, {}};
     for (const std::uint32_t index : subset)
@@ -319,17 +338,23 @@ LightSampler::LightSampler(std::span<const Light* const> lights, std::span<const
 // brightness count the same where both reach; and each cosine is the mean of its bound and of its value at the
 // centre, which estimates large clusters better than the bound alone (it halves the variance on a ceiling of panels)
 // and is still 0 only where the bound is.
-void LightSampler::importance(const Bounds4& bounds, Vec3f position, Vec3f normal, float* out) noexcept {
-    const Float4 x = position.x - load(bounds.center_x), y = position.y - load(bounds.center_y), z = position.z - load(bounds.center_z);
+void LightSampler::importance(const Bounds4& bounds, Vec3f position, Vec3f normal,
+                              float* out) noexcept {
+    const Float4 x = position.x - load(bounds.center_x), y = position.y - load(bounds.center_y),
+                 z = position.z - load(bounds.center_z);
     const Float4 radius = load(bounds.radius), intensity = load(bounds.intensity);
     const Float4 distance_squared = larger(x * x + y * y + z * z, all(kMinDistanceSquared));
     const Float4 radius_squared = larger(radius * radius, all(kMinDistanceSquared));
     const Float4 inverse_distance = 1 / root(distance_squared);
-    const Float4 sin_u = smaller(radius * inverse_distance, all(1)), cos_u = root(1 - sin_u * sin_u);
+    const Float4 sin_u = smaller(radius * inverse_distance, all(1)),
+                 cos_u = root(1 - sin_u * sin_u);
 
     // Angle between the nearest possible emitter normal and the direction to the point.
-    const Float4 cos_spread = load(bounds.cos_spread), sin_spread = load(bounds.sin_spread), cos_emission = load(bounds.cos_emission);
-    const Float4 along = (load(bounds.axis_x) * x + load(bounds.axis_y) * y + load(bounds.axis_z) * z) * inverse_distance;
+    const Float4 cos_spread = load(bounds.cos_spread), sin_spread = load(bounds.sin_spread),
+                 cos_emission = load(bounds.cos_emission);
+    const Float4 along =
+        (load(bounds.axis_x) * x + load(bounds.axis_y) * y + load(bounds.axis_z) * z) *
+        inverse_distance;
     const Float4 cos_w = larger(smaller(along, all(1)), all(-1)), sin_w = root(1 - cos_w * cos_w);
     const Float4 cos_x = cos_difference(sin_w, cos_w, sin_spread, cos_spread);
     const Float4 sin_x = sin_difference(sin_w, cos_w, sin_spread, cos_spread);
@@ -341,7 +366,8 @@ void LightSampler::importance(const Bounds4& bounds, Vec3f position, Vec3f norma
     // Angle between the surface's normal and the nearest possible direction to a light.
     if (!(normal == Vec3f{})) {
         const Float4 facing = -(normal.x * x + normal.y * y + normal.z * z) * inverse_distance;
-        const Float4 cos_i = larger(smaller(facing, all(1)), all(-1)), sin_i = root(1 - cos_i * cos_i);
+        const Float4 cos_i = larger(smaller(facing, all(1)), all(-1)),
+                     sin_i = root(1 - cos_i * cos_i);
         const Float4 receiver_bound = cos_difference(sin_i, cos_i, sin_u, cos_u);
         const Float4 receiver = 0.5F * (receiver_bound + larger(cos_i, all(0)));
         factor *= receiver_bound < all(-kCosineSlack) ? all(0) : larger(receiver, all(kMinCosine));
@@ -350,11 +376,13 @@ void LightSampler::importance(const Bounds4& bounds, Vec3f position, Vec3f norma
     // Within the bounding sphere nothing is known about directions.
     const Float4 inside = intensity / radius_squared;
     const Float4 outside = intensity * factor / larger(distance_squared, radius_squared);
-    const Float4 result = smaller(distance_squared <= radius_squared ? inside : outside, all(kMaxImportance));
+    const Float4 result =
+        smaller(distance_squared <= radius_squared ? inside : outside, all(kMaxImportance));
     std::memcpy(out, &result, sizeof(result));
 }
 
-LightSampler::Weights LightSampler::weigh(const Node& node, Vec3f position, Vec3f normal) const noexcept {
+LightSampler::Weights LightSampler::weigh(const Node& node, Vec3f position,
+                                          Vec3f normal) const noexcept {
     Weights out;
     for (std::size_t i = 0; i < node.n_branches; i += kLanes)
         importance(bounds_[node.first_bounds + i / kLanes], position, normal, out.of.data() + i);
@@ -376,7 +404,8 @@ LightSampler::Weights LightSampler::weigh_root(Vec3f position, Vec3f normal) con
 float LightSampler::importance(const Infinite& light, Vec3f normal) noexcept {
     if (normal == Vec3f{}) return light.irradiance;
     const float cos_i = std::clamp(-dot(normal, light.axis), -1.0F, 1.0F);
-    const float cos_receiver = cos_i > light.cos_spread ? 1 : cos_i * light.cos_spread + sine(cos_i) * light.sin_spread;
+    const float cos_receiver =
+        cos_i > light.cos_spread ? 1 : cos_i * light.cos_spread + sine(cos_i) * light.sin_spread;
     if (cos_receiver < -kCosineSlack) return 0;
     return std::min(light.irradiance * std::max(cos_receiver, kMinCosine), kMaxImportance);
 }
@@ -404,7 +433,8 @@ LightPick LightSampler::pick(Vec3f position, Vec3f normal, float u) const noexce
     return pick_infinite(normal, infinite, {0, 1 - p_tree, stretch(u, p_tree, 1 - p_tree)});
 }
 
-LightPick LightSampler::pick_finite(Vec3f position, Vec3f normal, Weights weights, LightPick so_far) const noexcept {
+LightPick LightSampler::pick_finite(Vec3f position, Vec3f normal, Weights weights,
+                                    LightPick so_far) const noexcept {
     std::uint32_t index = 0;
     // The parent's bound may have been too crude: then no branch can send anything.
     while (weights.sum > 0) {
@@ -455,7 +485,9 @@ float LightSampler::probability(Vec3f position, Vec3f normal, std::uint32_t ligh
     const float infinite = infinite_.empty() ? 0 : infinite_importance(normal);
     const float p_tree = tree_probability(root.sum, infinite);
     if (place.kind == Place::Kind::Infinite)
-        return infinite > 0 ? (1 - p_tree) * (importance(infinite_[place.index], normal) / infinite) : 0;
+        return infinite > 0
+                   ? (1 - p_tree) * (importance(infinite_[place.index], normal) / infinite)
+                   : 0;
 
     // Collect the way up, then multiply on the way down, in the order of `pick`.
     std::array<Place, kMaxDepth> way;

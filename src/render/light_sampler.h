@@ -25,8 +25,9 @@ namespace lightsieve {
 /// A light drawn by `LightSampler::pick`.
 struct LightPick {
     std::uint32_t light = 0;  ///< index into the span that the sampler was made from
-    float probability = 0;    ///< of this light; 0: no light can reach the point, `light` means nothing
-    float u = 0;              ///< the rest of the random number, uniform in [0,1) again
+    float probability =
+        0;        ///< of this light; 0: no light can reach the point, `light` means nothing
+    float u = 0;  ///< the rest of the random number, uniform in [0,1) again
 };
 
 class LightSampler {
@@ -48,7 +49,8 @@ class LightSampler {
     /// is always picked.
     [[nodiscard]] LightPick pick(Vec3f position, Vec3f normal, float u) const noexcept;
     /// The probability with which `pick` gives `light` there: the same arithmetic, so exactly the same number.
-    [[nodiscard]] float probability(Vec3f position, Vec3f normal, std::uint32_t light) const noexcept;
+    [[nodiscard]] float probability(Vec3f position, Vec3f normal,
+                                    std::uint32_t light) const noexcept;
     /// Whether any light can be picked at all.
     [[nodiscard]] bool empty() const noexcept { return nodes_.empty() && infinite_.empty(); }
 
@@ -69,10 +71,10 @@ class LightSampler {
     };
     /// A node of the tree.
     struct Node {
-        std::uint32_t first_bounds = 0;  ///< in `bounds_`; as many as the branches need
-        std::uint32_t n_branches = 0;    ///< 1 to 16
-        std::uint32_t parent = kNone;    ///< kNone: the root
-        std::uint32_t parent_branch = 0; ///< which branch of the parent this node is
+        std::uint32_t first_bounds = 0;   ///< in `bounds_`; as many as the branches need
+        std::uint32_t n_branches = 0;     ///< 1 to 16
+        std::uint32_t parent = kNone;     ///< kNone: the root
+        std::uint32_t parent_branch = 0;  ///< which branch of the parent this node is
         /// A node below, or a light of the caller's span with kLeaf added.
         std::array<std::uint32_t, kBranches> branches{};
     };
@@ -99,7 +101,8 @@ class LightSampler {
     };
     struct Builder;
 
-    static void importance(const Bounds4& bounds, Vec3f position, Vec3f normal, float* out) noexcept;
+    static void importance(const Bounds4& bounds, Vec3f position, Vec3f normal,
+                           float* out) noexcept;
     static float importance(const Infinite& light, Vec3f normal) noexcept;
     [[nodiscard]] Weights weigh(const Node& node, Vec3f position, Vec3f normal) const noexcept;
     [[nodiscard]] Weights weigh_root(Vec3f position, Vec3f normal) const noexcept;
@@ -107,8 +110,10 @@ class LightSampler {
     /// Chance of walking down the tree rather than taking an infinite light.
     static float tree_probability(float tree, float infinite) noexcept;
     /// The two halves of `pick`; `so_far` has the probability and the random number that are left.
-    [[nodiscard]] LightPick pick_finite(Vec3f position, Vec3f normal, Weights weights, LightPick so_far) const noexcept;
-    [[nodiscard]] LightPick pick_infinite(Vec3f normal, float sum, LightPick so_far) const noexcept;
+    [[nodiscard]] LightPick pick_finite(Vec3f position, Vec3f normal, Weights weights,
+                                        LightPick so_far) const noexcept;
+    [[nodiscard]] LightPick pick_infinite(Vec3f normal, float sum,
+                                          LightPick so_far) const noexcept;
 
     std::vector<Node> nodes_;         ///< the root is number 0
     std::vector<Bounds4> bounds_;     ///< of the nodes' branches

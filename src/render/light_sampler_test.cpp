@@ -14,7 +14,8 @@ namespace {
 /// A light that only has bounds.
 class BoundsOnly final : public Light {
   public:
-    explicit BoundsOnly(const LightBounds& bounds, float irradiance = -1) : bounds_(bounds), irradiance_(irradiance) {}
+    explicit BoundsOnly(const LightBounds& bounds, float irradiance = -1)
+        : bounds_(bounds), irradiance_(irradiance) {}
     [[nodiscard]] LightSample sample(Vec3f, Vec2f) const override { return {}; }
     [[nodiscard]] bool infinite() const override { return irradiance_ >= 0; }
     [[nodiscard]] LightBounds bounds() const override { return bounds_; }
@@ -33,7 +34,9 @@ class Random {
         const float x = next();
         return {x, next()};
     }
-    Vec3f in_box(float half) { return {half * (2 * next() - 1), half * (2 * next() - 1), half * (2 * next() - 1)}; }
+    Vec3f in_box(float half) {
+        return {half * (2 * next() - 1), half * (2 * next() - 1), half * (2 * next() - 1)};
+    }
     Vec3f direction() { return sample_uniform_sphere(next2()); }
 
   private:
@@ -72,7 +75,8 @@ class Lights {
         add(bounds);
     }
     /// spread_deg  half angle of the cone of normals
-    void add_spot(Vec3f center, Vec3f axis, float half_angle_deg, float intensity, float spread_deg = 0) {
+    void add_spot(Vec3f center, Vec3f axis, float half_angle_deg, float intensity,
+                  float spread_deg = 0) {
         LightBounds bounds;
         bounds.box.grow(center);
         bounds.axis = axis;
@@ -82,7 +86,9 @@ class Lights {
         add(bounds);
     }
     [[nodiscard]] std::span<const Light* const> span() const { return pointers_; }
-    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(pointers_.size()); }
+    [[nodiscard]] std::uint32_t size() const {
+        return static_cast<std::uint32_t>(pointers_.size());
+    }
 
   private:
     std::vector<std::unique_ptr<Light>> owned_;
@@ -98,7 +104,8 @@ Lights mixed_lights(int n, bool with_infinite) {
         const float strength = std::exp2(6 * random.next() - 3);
         if (i % 3 == 0) lights.add_point(place, strength);
         if (i % 3 == 1) lights.add_panel(place, random.direction(), 0.5F, strength);
-        if (i % 3 == 2) lights.add_spot(place, random.direction(), 10 + 50 * random.next(), strength);
+        if (i % 3 == 2)
+            lights.add_spot(place, random.direction(), 10 + 50 * random.next(), strength);
     }
     if (with_infinite) {
         lights.add_infinite({0, -1, 0}, 1, 0.2F);
@@ -110,12 +117,14 @@ Lights mixed_lights(int n, bool with_infinite) {
 
 /// Draws with evenly spaced numbers and compares the counts with probability(): each light owns one interval of u,
 /// so a count is exact to one draw at each end.
-void expect_pick_agrees(const LightSampler& sampler, std::uint32_t n_lights, Vec3f position, Vec3f normal) {
+void expect_pick_agrees(const LightSampler& sampler, std::uint32_t n_lights, Vec3f position,
+                        Vec3f normal) {
     constexpr int kDraws = 20000;
     std::vector<int> counts(n_lights);
     std::vector<double> sum_of_u(n_lights);
     for (int i = 0; i < kDraws; ++i) {
-        const LightPick pick = sampler.pick(position, normal, (static_cast<float>(i) + 0.5F) / kDraws);
+        const LightPick pick =
+            sampler.pick(position, normal, (static_cast<float>(i) + 0.5F) / kDraws);
         ASSERT_GE(pick.u, 0);
         ASSERT_LT(pick.u, 1);
         if (pick.probability == 0) continue;
@@ -144,7 +153,8 @@ TEST(LightSampler, ProbabilityIsThatOfPick) {
         Random random;
         for (int i = 0; i < 20; ++i) {
             const Vec3f position = random.in_box(12);
-            expect_pick_agrees(sampler, lights.size(), position, i % 4 == 0 ? Vec3f{} : random.direction());
+            expect_pick_agrees(sampler, lights.size(), position,
+                               i % 4 == 0 ? Vec3f{} : random.direction());
         }
     }
 }
@@ -196,7 +206,8 @@ TEST(LightSampler, NeverMissesALightThatContributes) {
         for (std::uint32_t l = 0; l < 40; ++l) {
             const Panel& p = panels[l];
             const Frame frame = Frame::from_z(p.normal);
-            const Vec3f on = p.center + frame.x * (p.half * (2 * random.next() - 1)) + frame.y * (p.half * (2 * random.next() - 1));
+            const Vec3f on = p.center + frame.x * (p.half * (2 * random.next() - 1)) +
+                             frame.y * (p.half * (2 * random.next() - 1));
             if (dot(position - on, p.normal) <= 0 || dot(on - position, normal) <= 0) continue;
             ++contributing;
             EXPECT_GT(sampler.probability(position, normal, l), 0);
@@ -204,7 +215,9 @@ TEST(LightSampler, NeverMissesALightThatContributes) {
         for (std::uint32_t l = 0; l < 40; ++l) {
             const Spot& s = spots[l];
             const Vec3f away = normalize(position - s.place);
-            if (dot(away, s.axis) < std::cos(deg_to_rad(s.half_angle_deg)) || dot(away, normal) >= 0) continue;
+            if (dot(away, s.axis) < std::cos(deg_to_rad(s.half_angle_deg)) ||
+                dot(away, normal) >= 0)
+                continue;
             ++contributing;
             EXPECT_GT(sampler.probability(position, normal, 40 + l), 0);
         }
@@ -234,9 +247,11 @@ TEST(LightSampler, NeverMissesALightOfAClusterThatPointsOneWay) {
     const LightSampler sampler(lights.span());
     for (std::uint32_t l = 0; l < lights.size(); ++l)
         for (int i = 0; i < 20; ++i) {
-            const Vec3f local = sample_uniform_cone({0.999F, random.next()}, 1 - std::cos(deg_to_rad(beams[l].half_angle_deg)));
+            const Vec3f local = sample_uniform_cone(
+                {0.999F, random.next()}, 1 - std::cos(deg_to_rad(beams[l].half_angle_deg)));
             const Vec3f away = Frame::from_z(beams[l].axis).world_from_local(local);
-            EXPECT_GT(sampler.probability(beams[l].place + away * (20 * random.next()), {}, l), 0) << l;
+            EXPECT_GT(sampler.probability(beams[l].place + away * (20 * random.next()), {}, l), 0)
+                << l;
         }
 }
 
@@ -321,14 +336,14 @@ TEST(LightSampler, HostileLightsAndPoints) {
 
     Lights lights;
     const float nan = std::nanf("");
-    lights.add_point({0, 0, 0}, 0);             // 0: black
-    lights.add_point({0, 0, 0}, nan);           // 1: not a number
-    lights.add_point({nan, 0, 0}, 1);           // 2: nowhere
-    lights.add_infinite({0, -1, 0}, 1, 0);      // 3: black
-    lights.add({});                             // 4: without place
+    lights.add_point({0, 0, 0}, 0);         // 0: black
+    lights.add_point({0, 0, 0}, nan);       // 1: not a number
+    lights.add_point({nan, 0, 0}, 1);       // 2: nowhere
+    lights.add_infinite({0, -1, 0}, 1, 0);  // 3: black
+    lights.add({});                         // 4: without place
     EXPECT_TRUE(LightSampler(lights.span()).empty());
-    lights.add_point({0, 0, 0}, 1);             // 5: sound
-    lights.add_point({0, 0, 0}, 1e30F);         // 6: sound, at the same place
+    lights.add_point({0, 0, 0}, 1);      // 5: sound
+    lights.add_point({0, 0, 0}, 1e30F);  // 6: sound, at the same place
     const LightSampler sampler(lights.span());
     for (std::uint32_t dead = 0; dead < 5; ++dead)
         EXPECT_EQ(sampler.probability({1, 0, 0}, {}, dead), 0) << dead;

@@ -9,7 +9,8 @@
 namespace lightsieve {
 
 HistoryMachine::State HistoryMachine::step(State state, const LobeRecord& record) const {
-    const auto [at, is_new] = index->try_emplace({state, record.event}, static_cast<State>(nodes->size()));
+    const auto [at, is_new] =
+        index->try_emplace({state, record.event}, static_cast<State>(nodes->size()));
     if (is_new) nodes->emplace_back(state, record.event);
     return at->second;
 }
@@ -41,10 +42,12 @@ std::vector<LoggedPath> log_paths(const Scene& scene) {
                 log.x = x;
                 log.y = y;
                 const CameraSample sample = camera.sample(x, y, static_cast<std::uint32_t>(i));
-                integrator.trace(sample.ray, sample.time, sample.camera_from_world, sample.sampler, buffer);
+                integrator.trace(sample.ray, sample.time, sample.camera_from_world, sample.sampler,
+                                 buffer);
                 const float scale = sample_clamp_factor(scene, buffer.beauty);
                 for (std::size_t p = first; p < log.paths.size(); ++p)
-                    if (log.paths[p].events.back() != scene.probe_event) log.paths[p].value *= scale;
+                    if (log.paths[p].events.back() != scene.probe_event)
+                        log.paths[p].value *= scale;
             }
     return std::move(log.paths);
 }
@@ -55,7 +58,8 @@ std::string path_log_text(const Scene& scene, std::span<const LoggedPath> paths)
         std::vector<Event> events{{EventKind::Camera, EventLobe::None, {}}};
         for (std::uint32_t e : path.events)
             events.push_back(scene.events[e]);
-        out += fmt::format("{} {}  {}  {} {} {}\n", path.x, path.y, lpe::print_path(events), path.value.r, path.value.g, path.value.b);
+        out += fmt::format("{} {}  {}  {} {} {}\n", path.x, path.y, lpe::print_path(events),
+                           path.value.r, path.value.g, path.value.b);
     }
     return out;
 }

@@ -29,9 +29,9 @@ struct HistoryMachine {
 
 /// One share of light that arrived.
 struct LoggedPath {
-    int x = 0, y = 0;                    ///< pixel of the frame
-    std::vector<std::uint32_t> events;   ///< indices into Scene::events, the camera event left out
-    Color value;                         ///< before division by the number of samples
+    int x = 0, y = 0;                   ///< pixel of the frame
+    std::vector<std::uint32_t> events;  ///< indices into Scene::events, the camera event left out
+    Color value;                        ///< before division by the number of samples
 };
 
 class LogTracker {
@@ -41,7 +41,8 @@ class LogTracker {
     void scale(Color factor) { terms_.scale(factor); }
     void keep_only(std::size_t group, float factor) { terms_.keep_only(group, factor); }
     template <class Random>
-    void scatter(std::span<const Channel> channels, std::span<const Color> factors, const PathGroups::Step& step, const Random& random) {
+    void scatter(std::span<const Channel> channels, std::span<const Color> factors,
+                 const PathGroups::Step& step, const Random& random) {
         terms_.scatter(machine_, channels, factors, step, random);
     }
     [[nodiscard]] bool live() const { return !terms_.empty(); }
@@ -51,14 +52,16 @@ class LogTracker {
             store(t.state, terminal, t.throughput * value(t.group) * scale);
     }
     template <class Value>
-    void add_scattered(std::span<const Channel> channels, Terminal terminal, const Value& value, float scale) {
+    void add_scattered(std::span<const Channel> channels, Terminal terminal, const Value& value,
+                       float scale) {
         for (const auto& t : terms_.all())
             for (std::size_t c = 0; c < channels.size(); ++c)
-                store(machine_.step(t.state, *channels[c].record), terminal, t.throughput * value(t.group, c) * scale);
+                store(machine_.step(t.state, *channels[c].record), terminal,
+                      t.throughput * value(t.group, c) * scale);
     }
 
-    int x = 0, y = 0;                ///< set before each sample
-    std::vector<LoggedPath> paths;   ///< everything that arrived
+    int x = 0, y = 0;               ///< set before each sample
+    std::vector<LoggedPath> paths;  ///< everything that arrived
 
   private:
     void store(HistoryMachine::State state, Terminal terminal, Color value);

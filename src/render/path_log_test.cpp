@@ -18,8 +18,20 @@ std::vector<std::string> all_builtins() {
 
 /// Labels, groups, repeats, negations, probes deep in a path, emission and background at any depth.
 std::vector<std::string> custom(const std::string& group) {
-    return {"mirrored C<RS[^'coat']>+<RD>L", "coated C.*'coat'.*", "no_coat C[^'coat']*", "grouped C<RD><L.'" + group + "'>", "through C<TS>*<RD>A", "second C.<RD>.*",
-            "third C..D.*L", "either C(<RD>|<TD>)S*[LO]", "glow C[DS]*O", "sky C[DS]+B", "two C.{2}L", "sheen_then C'sheen'.*", "not_group C.*<L[^'" + group + "']>", "many C(DS|SD)*.?[LOB]"};
+    return {"mirrored C<RS[^'coat']>+<RD>L",
+            "coated C.*'coat'.*",
+            "no_coat C[^'coat']*",
+            "grouped C<RD><L.'" + group + "'>",
+            "through C<TS>*<RD>A",
+            "second C.<RD>.*",
+            "third C..D.*L",
+            "either C(<RD>|<TD>)S*[LO]",
+            "glow C[DS]*O",
+            "sky C[DS]+B",
+            "two C.{2}L",
+            "sheen_then C'sheen'.*",
+            "not_group C.*<L[^'" + group + "']>",
+            "many C(DS|SD)*.?[LOB]"};
 }
 
 struct Case {
@@ -29,11 +41,14 @@ struct Case {
 
 class PathLogOracle : public ::testing::TestWithParam<Case> {};
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PathLogOracle, ::testing::Values(Case{"laws_lobes.ass", "key"}, Case{"laws_room.ass", "ceiling"}));
+INSTANTIATE_TEST_SUITE_P(Scenes, PathLogOracle,
+                         ::testing::Values(Case{"laws_lobes.ass", "key"},
+                                           Case{"laws_room.ass", "ceiling"}));
 
 TEST_P(PathLogOracle, EqualsTheAovs) {
     std::vector<std::string> aovs = all_builtins();
-    for (const char* grouped : {"RGBA_*", "diffuse_*", "specular_indirect_*", "background_*", "coat_default"})
+    for (const char* grouped :
+         {"RGBA_*", "diffuse_*", "specular_indirect_*", "background_*", "coat_default"})
         aovs.emplace_back(grouped);
     aovs.emplace_back("transmission FLOAT");
     aovs.erase(std::find(aovs.begin(), aovs.end(), "transmission"));
@@ -45,7 +60,8 @@ TEST_P(PathLogOracle, EqualsTheAovs) {
     const std::vector<LoggedPath> paths = log_paths(scene.scene());
     EXPECT_GT(paths.size(), 2000U);
     EXPECT_TRUE(check_oracle(scene.scene(), picture, paths));
-    for (const char* lit : {"mirrored", "no_coat", "grouped", "through", "second", "either", "two"})
+    for (const char* lit :
+         {"mirrored", "no_coat", "grouped", "through", "second", "either", "two"})
         EXPECT_TRUE(check_lit(picture, lit));
 }
 
@@ -61,8 +77,10 @@ TEST(PathLog, CountsOnlyTheRegionThatIsRendered) {
 }
 
 TEST(PathLog, TextNamesEvents) {
-    const std::string text = frame_text(2, 1, 1, ortho_camera({0, 2, 0}, {0, 0, 0}, 1, {0, 0, 1})) + node("lambert", "white", " Kd 0.5") + floor("plane", 0, 2, "white") +
-                             node("distant_light", "sun", " direction 0 -1 0\n aov \"sun\"");
+    const std::string text =
+        frame_text(2, 1, 1, ortho_camera({0, 2, 0}, {0, 0, 0}, 1, {0, 0, 1})) +
+        node("lambert", "white", " Kd 0.5") + floor("plane", 0, 2, "white") +
+        node("distant_light", "sun", " direction 0 -1 0\n aov \"sun\"");
     const TestScene scene(text, in_memory());
     const std::string log = path_log_text(scene.scene(), log_paths(scene.scene()));
     EXPECT_NE(log.find("0 0  C RD L'sun'  0.159"), std::string::npos) << log;

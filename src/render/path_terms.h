@@ -34,19 +34,24 @@ struct DepthLimits {
 /// Depth counters and last ray type of a share of a path.
 struct GroupKey {
     std::uint8_t diffuse = 0, specular = 0, transmission = 0, volume = 0;
-    std::uint8_t forgotten = 0;  ///< bounces of which only the number still matters, see DepthRules
+    std::uint8_t forgotten =
+        0;  ///< bounces of which only the number still matters, see DepthRules
     RayType ray_type = RayType::Camera;
-    bool lights_only = false;  ///< past a depth limit: the ray may still meet lights, everything else is black
-    bool exits = false;        ///< past a depth limit, and the shader says exit_to_background
+    bool lights_only =
+        false;  ///< past a depth limit: the ray may still meet lights, everything else is black
+    bool exits = false;  ///< past a depth limit, and the shader says exit_to_background
     friend bool operator==(const GroupKey&, const GroupKey&) = default;
-    [[nodiscard]] int total() const { return diffuse + specular + transmission + volume + forgotten; }
+    [[nodiscard]] int total() const {
+        return diffuse + specular + transmission + volume + forgotten;
+    }
 };
 
 /// The ray that leaves a vertex through a lobe.
 [[nodiscard]] constexpr RayType ray_type_of(EventKind kind, EventLobe lobe, bool subsurface) {
     if (subsurface) return RayType::Subsurface;
     if (kind == EventKind::Volume) return RayType::Volume;
-    if (kind == EventKind::Reflection) return lobe == EventLobe::Diffuse ? RayType::DiffuseReflect : RayType::SpecularReflect;
+    if (kind == EventKind::Reflection)
+        return lobe == EventLobe::Diffuse ? RayType::DiffuseReflect : RayType::SpecularReflect;
     return lobe == EventLobe::Diffuse ? RayType::DiffuseTransmit : RayType::SpecularTransmit;
 }
 
@@ -58,7 +63,9 @@ struct Channel {
     [[nodiscard]] bool matches(const Closure& closure) const {
         const LobeRecord& a = *record;
         const LobeRecord& b = *closure.record;
-        return a.event == b.event && a.kind == b.kind && a.lobe == b.lobe && a.subsurface == b.subsurface && a.exit_to_background == b.exit_to_background && caustics == closure.caustics;
+        return a.event == b.event && a.kind == b.kind && a.lobe == b.lobe &&
+               a.subsurface == b.subsurface && a.exit_to_background == b.exit_to_background &&
+               caustics == closure.caustics;
     }
 };
 
@@ -68,20 +75,23 @@ inline constexpr std::size_t kMaxChannels = ClosureSet::kMaxClosures;
 class DepthRules {
   public:
     /// type_matters  whether anything in the scene tells these ray types apart; others become one
-    DepthRules(DepthLimits limits, std::array<bool, 8> type_matters) : limits_(limits), type_matters_(type_matters) {}
+    DepthRules(DepthLimits limits, std::array<bool, 8> type_matters)
+        : limits_(limits), type_matters_(type_matters) {}
 
     [[nodiscard]] GroupKey next(GroupKey key, const LobeRecord& through) const {
         // Which counter an event uses: RD and TD diffuse, RS specular, TS transmission, V volume.
         const RayType type = ray_type_of(through.kind, through.lobe, through.subsurface);
-        std::uint8_t& counter = type == RayType::Volume              ? key.volume
-                                : type == RayType::SpecularTransmit  ? key.transmission
-                                : type == RayType::SpecularReflect   ? key.specular
-                                                                     : key.diffuse;
+        std::uint8_t& counter = type == RayType::Volume             ? key.volume
+                                : type == RayType::SpecularTransmit ? key.transmission
+                                : type == RayType::SpecularReflect  ? key.specular
+                                                                    : key.diffuse;
         ++counter;
-        key.lights_only = key.diffuse > limits_.diffuse || key.specular > limits_.specular || key.transmission > limits_.transmission ||
-                          key.volume > limits_.volume || key.total() > limits_.total;
+        key.lights_only = key.diffuse > limits_.diffuse || key.specular > limits_.specular ||
+                          key.transmission > limits_.transmission || key.volume > limits_.volume ||
+                          key.total() > limits_.total;
         key.exits = key.lights_only && through.exit_to_background;
-        key.ray_type = type_matters_[static_cast<std::size_t>(type)] ? type : RayType::SpecularReflect;
+        key.ray_type =
+            type_matters_[static_cast<std::size_t>(type)] ? type : RayType::SpecularReflect;
         return canonical(key);
     }
 
@@ -120,7 +130,9 @@ struct PathGroup {
 
 /// True if light through this channel exists for a share that arrived with this key: Arnold's `caustics` switch.
 [[nodiscard]] inline bool channel_allowed(const GroupKey& key, const Channel& channel) {
-    const bool diffuse_ray = key.ray_type == RayType::DiffuseReflect || key.ray_type == RayType::DiffuseTransmit || key.ray_type == RayType::Subsurface;
+    const bool diffuse_ray = key.ray_type == RayType::DiffuseReflect ||
+                             key.ray_type == RayType::DiffuseTransmit ||
+                             key.ray_type == RayType::Subsurface;
     return channel.caustics || channel.record->lobe != EventLobe::Specular || !diffuse_ray;
 }
 
@@ -154,21 +166,26 @@ class PathGroups {
 
     /// Where each (group, channel) went: the terms follow the groups through a vertex by this map.
     struct Step {
-        std::array<std::array<std::uint8_t, kMaxChannels>, kMaxGroups> to;  ///< new group, or kNone
-        std::array<std::array<float, kMaxChannels>, kMaxGroups> scale;      ///< factor of a coin that joined groups
+        std::array<std::array<std::uint8_t, kMaxChannels>, kMaxGroups>
+            to;  ///< new group, or kNone
+        std::array<std::array<float, kMaxChannels>, kMaxGroups>
+            scale;  ///< factor of a coin that joined groups
     };
 
     /// Moves every group through every channel. factors[c] = f_c / p_mix; black ones are left out.
     /// random  gives uniform numbers, used only when there are too many groups
     template <class Random>
-    void scatter(std::span<const Channel> channels, std::span<const Color> factors, const DepthRules& rules, const Random& random, Step& step) {
+    void scatter(std::span<const Channel> channels, std::span<const Color> factors,
+                 const DepthRules& rules, const Random& random, Step& step) {
         std::array<PathGroup, kMaxCandidates>& candidates = candidates_;
         std::size_t n = 0;
         for (std::size_t g = 0; g < n_; ++g)
             for (std::size_t c = 0; c < channels.size(); ++c) {
                 step.to[g][c] = kNone;
                 step.scale[g][c] = 1;
-                if (groups_[g].key.lights_only || is_black(factors[c]) || !channel_allowed(groups_[g].key, channels[c])) continue;
+                if (groups_[g].key.lights_only || is_black(factors[c]) ||
+                    !channel_allowed(groups_[g].key, channels[c]))
+                    continue;
                 const GroupKey key = rules.next(groups_[g].key, *channels[c].record);
                 std::size_t i = 0;
                 while (i < n && !(candidates[i].key == key))
@@ -193,7 +210,8 @@ class PathGroups {
 
     /// Joins the two faintest candidates by a coin weighted with their luminance until they fit.
     template <class Random>
-    void join(std::array<PathGroup, kMaxCandidates>& candidates, std::size_t n, const Random& random, std::size_t n_old, std::size_t n_channels, Step& step) {
+    void join(std::array<PathGroup, kMaxCandidates>& candidates, std::size_t n,
+              const Random& random, std::size_t n_old, std::size_t n_channels, Step& step) {
         std::array<float, kMaxCandidates> factor;
         factor.fill(1);
         for (std::size_t alive = n, round = 0; alive > kMaxGroups; --alive, ++round) {
@@ -208,7 +226,8 @@ class PathGroups {
                     b = i;
                 }
             }
-            const float ya = luminance(candidates[a].throughput) * factor[a], yb = luminance(candidates[b].throughput) * factor[b];
+            const float ya = luminance(candidates[a].throughput) * factor[a],
+                        yb = luminance(candidates[b].throughput) * factor[b];
             const float p = ya + yb > 0 ? ya / (ya + yb) : 0.5F;
             const bool keep_a = random(static_cast<std::uint32_t>(round)) < p;
             factor[keep_a ? a : b] /= keep_a ? p : 1 - p;
@@ -233,7 +252,8 @@ class PathGroups {
 
     std::array<PathGroup, kMaxGroups> groups_;
     std::size_t n_ = 0;
-    std::array<PathGroup, kMaxCandidates> candidates_;  ///< of `scatter`; kept, because clearing it costs more than using it
+    std::array<PathGroup, kMaxCandidates>
+        candidates_;  ///< of `scatter`; kept, because clearing it costs more than using it
 };
 
 /// The terms of a path in one automaton (or in the path log's tree of histories).
@@ -270,14 +290,18 @@ class PathTerms {
 
     /// Follows PathGroups::scatter through the same vertex.
     template <class Random>
-    void scatter(const Machine& machine, std::span<const Channel> channels, std::span<const Color> factors, const PathGroups::Step& step, const Random& random) {
+    void scatter(const Machine& machine, std::span<const Channel> channels,
+                 std::span<const Color> factors, const PathGroups::Step& step,
+                 const Random& random) {
         next_.clear();
         for (const Term& t : terms_)
             for (std::size_t c = 0; c < channels.size(); ++c) {
                 if (step.to[t.group][c] == PathGroups::kNone) continue;
                 const State state = machine.step(t.state, *channels[c].record);
                 if (!machine.live(state)) continue;
-                add({step.to[t.group][c], state, t.throughput * factors[c] * step.scale[t.group][c]}, random);
+                add({step.to[t.group][c], state,
+                     t.throughput * factors[c] * step.scale[t.group][c]},
+                    random);
             }
         std::swap(terms_, next_);
     }
@@ -311,7 +335,8 @@ class PathTerms {
                 index[n] = i;
                 value[n++] = next_[i].throughput;
             }
-        const std::size_t dropped = index[drop_one_of_four(value, random(kReduceStream + n_reduced_++))];
+        const std::size_t dropped =
+            index[drop_one_of_four(value, random(kReduceStream + n_reduced_++))];
         for (std::size_t i = 0; i < 4; ++i)
             next_[index[i]].throughput = value[i];
         next_[dropped] = next_.back();
@@ -321,8 +346,10 @@ class PathTerms {
     /// Streams of random numbers for reductions, apart from those that join groups.
     static constexpr std::uint32_t kReduceStream = 1U << 16U;
 
-    std::vector<Term> terms_, next_;  ///< capacity is kept between paths: no allocation after the first few
-    std::uint32_t n_reduced_ = 0;  ///< reductions of this path: each takes a random number of its own
+    std::vector<Term> terms_,
+        next_;  ///< capacity is kept between paths: no allocation after the first few
+    std::uint32_t n_reduced_ =
+        0;  ///< reductions of this path: each takes a random number of its own
 };
 
 }  // namespace lightsieve

@@ -34,11 +34,14 @@ void check_reduction(const Four& x, const std::string& what) {
     std::array<std::array<double, 3>, 4> mean{};
     for (int step = 0; step < kSteps; ++step) {
         Four y = x;
-        const std::size_t dropped = drop_one_of_four(y, (static_cast<float>(step) + 0.5F) / kSteps);
+        const std::size_t dropped =
+            drop_one_of_four(y, (static_cast<float>(step) + 0.5F) / kSteps);
         ASSERT_LT(dropped, 4U) << what;
         ASSERT_TRUE(is_black(y[dropped])) << what;
         for (int c = 0; c < 3; ++c) {
-            ASSERT_NEAR(static_cast<double>(sum(y)[c]), static_cast<double>(sum(x)[c]), 5e-7 * magnitude(x)) << what << ", step " << step;
+            ASSERT_NEAR(static_cast<double>(sum(y)[c]), static_cast<double>(sum(x)[c]),
+                        5e-7 * magnitude(x))
+                << what << ", step " << step;
             for (std::size_t i = 0; i < 4; ++i) {
                 ASSERT_TRUE(std::isfinite(y[i][c]) && y[i][c] >= 0) << what;
                 mean[i][static_cast<std::size_t>(c)] += static_cast<double>(y[i][c]) / kSteps;
@@ -48,7 +51,9 @@ void check_reduction(const Four& x, const std::string& what) {
     // The odds are met to one step in kSteps, which moves a mean by at most twice the largest value over kSteps.
     for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            EXPECT_NEAR(mean[i][c], static_cast<double>(x[i][static_cast<int>(c)]), 2.5 * magnitude(x) / kSteps + 2e-5 * magnitude(x)) << what << ", entry " << i;
+            EXPECT_NEAR(mean[i][c], static_cast<double>(x[i][static_cast<int>(c)]),
+                        2.5 * magnitude(x) / kSteps + 2e-5 * magnitude(x))
+                << what << ", entry " << i;
 }
 
 TEST(DropOneOfFour, KeepsTheSumAndEveryMean) {
@@ -74,9 +79,15 @@ TEST(DropOneOfFour, HandlesColoursThatSpanLess) {
     std::uniform_real_distribution<float> uniform(-1, 1);
     for (const float size : {1e-1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F})
         for (int i = 0; i < 5; ++i) {
-            const auto near = [&](Color c) { return Color(c.r + size * (1 + uniform(random)), c.g + size * (1 + uniform(random)), c.b + size * (1 + uniform(random))); };
-            check_reduction({near(grey), near(grey), near(grey), near(grey * 3)}, "nearly parallel");
-            check_reduction({near(red), near(green), near(red + green), near(red * 0.3F + green)}, "nearly in a plane");
+            const auto near = [&](Color c) {
+                return Color(c.r + size * (1 + uniform(random)),
+                             c.g + size * (1 + uniform(random)),
+                             c.b + size * (1 + uniform(random)));
+            };
+            check_reduction({near(grey), near(grey), near(grey), near(grey * 3)},
+                            "nearly parallel");
+            check_reduction({near(red), near(green), near(red + green), near(red * 0.3F + green)},
+                            "nearly in a plane");
         }
 }
 
@@ -90,9 +101,11 @@ LobeRecord record(EventKind kind, EventLobe lobe, std::uint32_t event) {
     return out;
 }
 
-const std::array<LobeRecord, 5> kRecords{
-    record(EventKind::Reflection, EventLobe::Diffuse, 0), record(EventKind::Reflection, EventLobe::Specular, 1), record(EventKind::Transmission, EventLobe::Diffuse, 2),
-    record(EventKind::Transmission, EventLobe::Specular, 3), record(EventKind::Volume, EventLobe::None, 4)};
+const std::array<LobeRecord, 5> kRecords{record(EventKind::Reflection, EventLobe::Diffuse, 0),
+                                         record(EventKind::Reflection, EventLobe::Specular, 1),
+                                         record(EventKind::Transmission, EventLobe::Diffuse, 2),
+                                         record(EventKind::Transmission, EventLobe::Specular, 3),
+                                         record(EventKind::Volume, EventLobe::None, 4)};
 
 constexpr std::array<bool, 8> kAllMatter{true, true, true, true, true, true, true, true};
 
@@ -100,21 +113,28 @@ constexpr std::array<bool, 8> kAllMatter{true, true, true, true, true, true, tru
 struct PlainCounters {
     int diffuse = 0, specular = 0, transmission = 0, volume = 0;
     void count(const LobeRecord& r) {
-        if (r.kind == EventKind::Volume) ++volume;
-        else if (r.lobe == EventLobe::Diffuse) ++diffuse;
-        else if (r.kind == EventKind::Reflection) ++specular;
-        else ++transmission;
+        if (r.kind == EventKind::Volume)
+            ++volume;
+        else if (r.lobe == EventLobe::Diffuse)
+            ++diffuse;
+        else if (r.kind == EventKind::Reflection)
+            ++specular;
+        else
+            ++transmission;
     }
     [[nodiscard]] int total() const { return diffuse + specular + transmission + volume; }
     [[nodiscard]] bool past(const DepthLimits& l) const {
-        return diffuse > l.diffuse || specular > l.specular || transmission > l.transmission || volume > l.volume || total() > l.total;
+        return diffuse > l.diffuse || specular > l.specular || transmission > l.transmission ||
+               volume > l.volume || total() > l.total;
     }
 };
 
 TEST(DepthRules, AgreeWithPlainCountersOnEverySequence) {
     // Keys may forget what no longer matters, but never so that a limit binds earlier or later than it should.
     std::mt19937 random(2);
-    const std::array<DepthLimits, 8> limits{DepthLimits{}, {1, 1, 2, 0, 10}, {8, 8, 8, 0, 10}, {4, 10, 2, 0, 6}, {4, 4, 4, 4, 4}, {2, 3, 1, 5, 6}, {0, 0, 0, 0, 3}, {250, 250, 250, 250, 20}};
+    const std::array<DepthLimits, 8> limits{
+        DepthLimits{},   {1, 1, 2, 0, 10}, {8, 8, 8, 0, 10}, {4, 10, 2, 0, 6},
+        {4, 4, 4, 4, 4}, {2, 3, 1, 5, 6},  {0, 0, 0, 0, 3},  {250, 250, 250, 250, 20}};
     for (const DepthLimits& limit : limits) {
         const DepthRules rules(limit, kAllMatter);
         for (int i = 0; i < 3000; ++i) {
@@ -126,7 +146,10 @@ TEST(DepthRules, AgreeWithPlainCountersOnEverySequence) {
                 path += "DSdsV"[through.event];
                 key = rules.next(key, through);
                 plain.count(through);
-                ASSERT_EQ(key.lights_only, plain.past(limit)) << path << " with limits " << int{limit.diffuse} << ' ' << int{limit.specular} << ' ' << int{limit.transmission} << ' ' << int{limit.volume} << ' ' << int{limit.total};
+                ASSERT_EQ(key.lights_only, plain.past(limit))
+                    << path << " with limits " << int{limit.diffuse} << ' ' << int{limit.specular}
+                    << ' ' << int{limit.transmission} << ' ' << int{limit.volume} << ' '
+                    << int{limit.total};
                 ASSERT_EQ(key.ray_type, ray_type_of(through.kind, through.lobe, false)) << path;
             }
         }
@@ -142,7 +165,8 @@ TEST(DepthRules, ForgetOrderSoThatKeysMerge) {
         return key;
     };
     EXPECT_EQ(follow({0, 1, 0}), follow({1, 0, 0}));
-    EXPECT_EQ(follow({1, 1, 0}), follow({0, 1, 0})) << "no limit but the total can bind, so kinds do not matter";
+    EXPECT_EQ(follow({1, 1, 0}), follow({0, 1, 0}))
+        << "no limit but the total can bind, so kinds do not matter";
     EXPECT_FALSE(follow({0, 0}) == follow({0, 0, 0}));
 }
 
@@ -156,16 +180,24 @@ TEST(DepthRules, TypesThatNothingTellsApartAreOne) {
 
 // Groups and terms -----------------------------------------------------------------------------------------------------
 
-std::array<Channel, 4> four_channels() { return {Channel{&kRecords[0], true}, {&kRecords[1], true}, {&kRecords[2], true}, {&kRecords[3], true}}; }
+std::array<Channel, 4> four_channels() {
+    return {Channel{&kRecords[0], true},
+            {&kRecords[1], true},
+            {&kRecords[2], true},
+            {&kRecords[3], true}};
+}
 
-const std::array<Color, 4> kFactors{Color(0.5F, 0.2F, 0.1F), Color(0.1F, 0.4F, 0.3F), Color(0.2F, 0.05F, 0.6F), Color(0.3F, 0.3F, 0.02F)};
+const std::array<Color, 4> kFactors{Color(0.5F, 0.2F, 0.1F), Color(0.1F, 0.4F, 0.3F),
+                                    Color(0.2F, 0.05F, 0.6F), Color(0.3F, 0.3F, 0.02F)};
 
 /// A machine whose state is the number of diffuse events seen, up to 7; all states are live.
 struct CountingMachine {
     using State = std::uint32_t;
     static constexpr std::size_t kMaxTerms = 24;
     [[nodiscard]] static State start() { return 0; }
-    [[nodiscard]] static State step(State state, const LobeRecord& r) { return std::min(7U, state + (r.lobe == EventLobe::Diffuse ? 1U : 0U)); }
+    [[nodiscard]] static State step(State state, const LobeRecord& r) {
+        return std::min(7U, state + (r.lobe == EventLobe::Diffuse ? 1U : 0U));
+    }
     [[nodiscard]] static bool live(State) { return true; }
 };
 
@@ -183,12 +215,14 @@ TEST(PathTerms, FollowTheGroupsAndStayUnbiasedWhenTheyAreJoined) {
     const std::array<Channel, 4> channels = four_channels();
     Sums truth, mean, squares;
     // Brute force: every sequence of lobes, by the number of diffuse events; past the specular limit a sequence ends.
-    const std::function<void(int, GroupKey, std::uint32_t, Color)> walk = [&](int left, GroupKey key, std::uint32_t state, Color throughput) {
-        if (left == 0) return add_to(truth, state, throughput, 1);
-        if (key.lights_only) return;
-        for (std::size_t c = 0; c < kFactors.size(); ++c)
-            walk(left - 1, rules.next(key, kRecords[c]), CountingMachine::step(state, kRecords[c]), throughput * kFactors[c]);
-    };
+    const std::function<void(int, GroupKey, std::uint32_t, Color)> walk =
+        [&](int left, GroupKey key, std::uint32_t state, Color throughput) {
+            if (left == 0) return add_to(truth, state, throughput, 1);
+            if (key.lights_only) return;
+            for (std::size_t c = 0; c < kFactors.size(); ++c)
+                walk(left - 1, rules.next(key, kRecords[c]),
+                     CountingMachine::step(state, kRecords[c]), throughput * kFactors[c]);
+        };
     walk(kVertices, {}, 0, kWhite);
 
     std::mt19937 generator(3);
@@ -212,7 +246,9 @@ TEST(PathTerms, FollowTheGroupsAndStayUnbiasedWhenTheyAreJoined) {
                 sums[t.group] += t.throughput;
             for (std::size_t g = 0; g < groups.all().size(); ++g)
                 for (int c = 0; c < 3; ++c)
-                    ASSERT_NEAR(sums[g][c], groups[g].throughput[c], 1e-4F * max_component(groups[g].throughput)) << "group " << g;
+                    ASSERT_NEAR(sums[g][c], groups[g].throughput[c],
+                                1e-4F * max_component(groups[g].throughput))
+                        << "group " << g;
         }
         Sums here;
         for (const auto& t : terms.all())
@@ -226,8 +262,11 @@ TEST(PathTerms, FollowTheGroupsAndStayUnbiasedWhenTheyAreJoined) {
     // 7 states times 3 channels at 4.5 standard errors: a false alarm once in 7000 seeds.
     for (const auto& [state, value] : truth)
         for (std::size_t c = 0; c < 3; ++c) {
-            const double variance = std::max(0.0, squares[state][c] - mean[state][c] * mean[state][c]);
-            EXPECT_NEAR(mean[state][c], value[c], 4.5 * std::sqrt(variance / kRuns) + 1e-5 * value[c]) << "state " << state << " channel " << c;
+            const double variance =
+                std::max(0.0, squares[state][c] - mean[state][c] * mean[state][c]);
+            EXPECT_NEAR(mean[state][c], value[c],
+                        4.5 * std::sqrt(variance / kRuns) + 1e-5 * value[c])
+                << "state " << state << " channel " << c;
         }
 }
 
@@ -251,7 +290,8 @@ TEST(PathGroups, JoiningReallyHappens) {
 }
 
 TEST(PathGroups, CausticsOffLeavesSpecularLobesDarkForDiffuseRays) {
-    const Channel with{&kRecords[1], true}, without{&kRecords[1], false}, diffuse{&kRecords[0], false};
+    const Channel with{&kRecords[1], true}, without{&kRecords[1], false},
+        diffuse{&kRecords[0], false};
     GroupKey key;
     key.ray_type = RayType::DiffuseReflect;
     EXPECT_TRUE(channel_allowed(key, with));

@@ -9,10 +9,10 @@ namespace lightsieve {
 
 struct Ray {
     Vec3f origin;
-    Vec3f direction;           ///< unit
+    Vec3f direction;  ///< unit
     float t_min = 0;
     float t_max = kInfinity;
-    float time = 0;            ///< [0,1] within the shutter
+    float time = 0;  ///< [0,1] within the shutter
 };
 
 /// The nearest thing that a ray meets.
@@ -24,8 +24,9 @@ struct RayHit {
 };
 
 // Bits of ray and object masks. The low eight are Arnold's ray types (core/ray_type.h).
-inline constexpr std::uint32_t kMaskShadowOpaque = 1U << 8U;       ///< casts shadows and is opaque
-inline constexpr std::uint32_t kMaskShadowTransparent = 1U << 9U;  ///< casts shadows, the shader decides how much
+inline constexpr std::uint32_t kMaskShadowOpaque = 1U << 8U;  ///< casts shadows and is opaque
+inline constexpr std::uint32_t kMaskShadowTransparent =
+    1U << 9U;  ///< casts shadows, the shader decides how much
 
 /// A point moved off a surface so far that rounding cannot put a ray from it back through the surface.
 ///

@@ -16,7 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 struct BucketRect {
     int x, y, width, height;
@@ -26,7 +28,8 @@ std::vector<BucketRect> buckets_of(const RenderSettings& s) {
     std::vector<BucketRect> out;
     for (int y = s.region.y0; y <= s.region.y1; y += s.bucket_size)
         for (int x = s.region.x0; x <= s.region.x1; x += s.bucket_size)
-            out.push_back({x, y, std::min(s.bucket_size, s.region.x1 + 1 - x), std::min(s.bucket_size, s.region.y1 + 1 - y)});
+            out.push_back({x, y, std::min(s.bucket_size, s.region.x1 + 1 - x),
+                           std::min(s.bucket_size, s.region.y1 + 1 - y)});
     return out;
 }
 
@@ -53,8 +56,13 @@ struct Worker {
 
 class Renderer {
   public:
-    Renderer(const Scene& scene, const RenderControl& control, Diagnostics& diagnostics, bool capture, bool write_files)
-        : scene_(scene), control_(control), diagnostics_(diagnostics), capture_(capture), write_files_(write_files) {}
+    Renderer(const Scene& scene, const RenderControl& control, Diagnostics& diagnostics,
+             bool capture, bool write_files)
+        : scene_(scene),
+          control_(control),
+          diagnostics_(diagnostics),
+          capture_(capture),
+          write_files_(write_files) {}
 
     RenderResult run();
 
@@ -68,7 +76,9 @@ class Renderer {
     void close_drivers();
     void report();
     void report_dropped();
-    [[nodiscard]] bool stopped() const { return control_.stop != nullptr && control_.stop->load(std::memory_order_relaxed); }
+    [[nodiscard]] bool stopped() const {
+        return control_.stop != nullptr && control_.stop->load(std::memory_order_relaxed);
+    }
     Worker& worker();
 
     const Scene& scene_;
@@ -131,15 +141,25 @@ Worker& Renderer::worker() {
 
 RenderResult Renderer::run() {
     for (const Pass& pass : scene_.plan.passes)
-        if (!pass.camera) throw InputError({Code::CameraMissing, "the scene has no camera", {}, "add options and a persp_camera, or render the scene that includes this file"});
+        if (!pass.camera)
+            throw InputError(
+                {Code::CameraMissing,
+                 "the scene has no camera",
+                 {},
+                 "add options and a persp_camera, or render the scene that includes this file"});
     open_drivers();
     const RenderSettings& s = scene_.settings;
     result_.width = s.region.x1 - s.region.x0 + 1;
     result_.height = s.region.y1 - s.region.y0 + 1;
     if (capture_)
         for (const PlannedLayer& layer : scene_.plan.layers)
-            result_.layers.push_back({layer.info, std::vector<float>(static_cast<std::size_t>(result_.width) * static_cast<std::size_t>(result_.height) * layer.info.n_channels)});
-    samples_total_ = static_cast<std::uint64_t>(result_.width) * static_cast<std::uint64_t>(result_.height) * static_cast<std::uint64_t>(s.samples) * scene_.plan.passes.size();
+            result_.layers.push_back(
+                {layer.info, std::vector<float>(static_cast<std::size_t>(result_.width) *
+                                                static_cast<std::size_t>(result_.height) *
+                                                layer.info.n_channels)});
+    samples_total_ = static_cast<std::uint64_t>(result_.width) *
+                     static_cast<std::uint64_t>(result_.height) *
+                     static_cast<std::uint64_t>(s.samples) * scene_.plan.passes.size();
     const std::vector<BucketRect> buckets = buckets_of(s);
     start_ = Clock::now();
     parallel_for(buckets.size(), s.threads, [&](std::size_t i) {
@@ -147,7 +167,8 @@ RenderResult Renderer::run() {
         Worker& mine = worker();
         render_bucket(mine, buckets[i]);
         const std::lock_guard lock(workers_mutex_);
-        const auto at = std::find_if(workers_.begin(), workers_.end(), [&](const auto& w) { return w.get() == &mine; });
+        const auto at = std::find_if(workers_.begin(), workers_.end(),
+                                     [&](const auto& w) { return w.get() == &mine; });
         idle_.push_back(std::move(*at));
         workers_.erase(at);
     });
@@ -163,7 +184,8 @@ void Renderer::render_bucket(Worker& worker, const BucketRect& rect) {
     for (std::size_t p = 0; p < scene_.plan.passes.size(); ++p) {
         if (!render_pass(worker, scene_.plan.passes[p], rect)) return;
         for (std::size_t l = 0; l < scene_.plan.layers.size(); ++l)
-            if (scene_.plan.layers[l].pass == p) worker.film.resolve(scene_.plan.layers[l], worker.layers[l]);
+            if (scene_.plan.layers[l].pass == p)
+                worker.film.resolve(scene_.plan.layers[l], worker.layers[l]);
     }
     deliver(worker, rect);
 }
@@ -177,11 +199,16 @@ bool Renderer::render_pass(Worker& worker, const Pass& pass, const BucketRect& r
             if (stopped()) return false;
             for (int i = 0; i < scene_.settings.samples; ++i) {
                 const std::uint64_t dropped_before = worker.integrator.counts.dropped;
-                const CameraSample sample = camera.sample(rect.x + x, rect.y + y, static_cast<std::uint32_t>(i));
-                worker.integrator.trace(sample.ray, sample.time, sample.camera_from_world, sample.sampler, worker.sample);
-                if (worker.integrator.counts.dropped != dropped_before) note_dropped(worker, rect.x + x, rect.y + y, i);
+                const CameraSample sample =
+                    camera.sample(rect.x + x, rect.y + y, static_cast<std::uint32_t>(i));
+                worker.integrator.trace(sample.ray, sample.time, sample.camera_from_world,
+                                        sample.sampler, worker.sample);
+                if (worker.integrator.counts.dropped != dropped_before)
+                    note_dropped(worker, rect.x + x, rect.y + y, i);
                 camera.weights(sample, worker.weights);
-                worker.film.add(x, y, worker.sample, sample_clamp_factor(scene_, worker.sample.beauty), sample.offset, worker.weights);
+                worker.film.add(x, y, worker.sample,
+                                sample_clamp_factor(scene_, worker.sample.beauty), sample.offset,
+                                worker.weights);
             }
         }
     return true;
@@ -189,7 +216,8 @@ bool Renderer::render_pass(Worker& worker, const Pass& pass, const BucketRect& r
 
 void Renderer::note_dropped(Worker& worker, int x, int y, int index) {
     const TraceCounts& counts = worker.integrator.counts;
-    if (worker.dropped.size() < kDescribedDrops) worker.dropped.push_back({y, x, index, counts.dropped_depth, counts.dropped_event});
+    if (worker.dropped.size() < kDescribedDrops)
+        worker.dropped.push_back({y, x, index, counts.dropped_depth, counts.dropped_event});
 }
 
 /// Hands a finished bucket to drivers and memory, one bucket at a time.
@@ -204,16 +232,25 @@ void Renderer::deliver(const Worker& worker, const BucketRect& rect) {
             planned.driver->write(bucket);
         }
     for (std::size_t l = 0; l < result_.layers.size(); ++l) {
-        const std::size_t channels = result_.layers[l].info.n_channels, row = static_cast<std::size_t>(rect.width) * channels;
+        const std::size_t channels = result_.layers[l].info.n_channels,
+                          row = static_cast<std::size_t>(rect.width) * channels;
         for (int y = 0; y < rect.height; ++y) {
             const std::size_t from = static_cast<std::size_t>(y) * row;
-            const std::size_t to = (static_cast<std::size_t>(rect.y + y - scene_.settings.region.y0) * static_cast<std::size_t>(result_.width) + static_cast<std::size_t>(rect.x - scene_.settings.region.x0)) * channels;
-            std::copy_n(worker.layers[l].begin() + static_cast<std::ptrdiff_t>(from), row, result_.layers[l].pixels.begin() + static_cast<std::ptrdiff_t>(to));
+            const std::size_t to =
+                (static_cast<std::size_t>(rect.y + y - scene_.settings.region.y0) *
+                     static_cast<std::size_t>(result_.width) +
+                 static_cast<std::size_t>(rect.x - scene_.settings.region.x0)) *
+                channels;
+            std::copy_n(worker.layers[l].begin() + static_cast<std::ptrdiff_t>(from), row,
+                        result_.layers[l].pixels.begin() + static_cast<std::ptrdiff_t>(to));
         }
     }
-    result_.samples += static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height) * static_cast<std::uint64_t>(scene_.settings.samples) * scene_.plan.passes.size();
+    result_.samples +=
+        static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height) *
+        static_cast<std::uint64_t>(scene_.settings.samples) * scene_.plan.passes.size();
     result_.output_seconds += seconds_since(start);
-    if (control_.progress) control_.progress({result_.samples, samples_total_, seconds_since(start_)});
+    if (control_.progress)
+        control_.progress({result_.samples, samples_total_, seconds_since(start_)});
 }
 
 void Renderer::close_drivers() {
@@ -230,10 +267,21 @@ void Renderer::report_dropped() {
         all.insert(all.end(), w->dropped.begin(), w->dropped.end());
     std::sort(all.begin(), all.end());
     if (all.size() > kDescribedDrops) all.resize(kDescribedDrops);
-    Error warning{Code::RenderNonFinite, std::to_string(result_.dropped_samples) + " contributions were infinite or not a number and were left out", {}, "look for lights, textures or parameters of extreme size", {}, Severity::Warning};
+    Error warning{Code::RenderNonFinite,
+                  std::to_string(result_.dropped_samples) +
+                      " contributions were infinite or not a number and were left out",
+                  {},
+                  "look for lights, textures or parameters of extreme size",
+                  {},
+                  Severity::Warning};
     for (const DroppedSample& d : all) {
-        std::string what = d.event == TraceCounts::kNoEvent ? "while scattering" : "arriving as " + lpe::print_event(scene_.events[d.event]);
-        warning.notes.push_back({"pixel " + std::to_string(d.x) + "," + std::to_string(d.y) + " sample " + std::to_string(d.index) + ": " + what + " after " + std::to_string(d.depth) + " scattering events", {}});
+        std::string what = d.event == TraceCounts::kNoEvent
+                               ? "while scattering"
+                               : "arriving as " + lpe::print_event(scene_.events[d.event]);
+        warning.notes.push_back({"pixel " + std::to_string(d.x) + "," + std::to_string(d.y) +
+                                     " sample " + std::to_string(d.index) + ": " + what +
+                                     " after " + std::to_string(d.depth) + " scattering events",
+                                 {}});
     }
     diagnostics_.add(std::move(warning));
 }
@@ -247,13 +295,19 @@ void Renderer::report() {
     }
     if (result_.dropped_samples > 0) report_dropped();
     if (dropped_closures > 0)
-        diagnostics_.warning(Code::RenderNonFinite, std::to_string(dropped_closures) + " lobes did not fit at one hit and were left out", {}, "materials of more than " + std::to_string(ClosureSet::kMaxClosures) + " lobes are not possible");
+        diagnostics_.warning(
+            Code::RenderNonFinite,
+            std::to_string(dropped_closures) + " lobes did not fit at one hit and were left out",
+            {},
+            "materials of more than " + std::to_string(ClosureSet::kMaxClosures) +
+                " lobes are not possible");
     scene_.textures->report_failures(diagnostics_);
 }
 
 }  // namespace
 
-RenderResult render_scene(const Scene& scene, const RenderControl& control, Diagnostics& diagnostics) {
+RenderResult render_scene(const Scene& scene, const RenderControl& control,
+                          Diagnostics& diagnostics) {
     return Renderer(scene, control, diagnostics, scene.capture, scene.write_files).run();
 }
 

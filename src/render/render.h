@@ -30,35 +30,40 @@ struct Region {
 
 /// What the command line or Python may say beyond the scene; empty or 0 means: as the scene says.
 struct RenderOptions {
-    std::string output;               ///< -o: a folder for the drivers' relative names, or the first driver's file
-    std::string scene_path;           ///< of the .ass file: relative assets are searched beside it; named in headers
-    int aa_samples = 0;               ///< AA_samples: n * n samples a pixel
-    int spp = 0;                      ///< samples a pixel, wins over aa_samples
-    int width = 0, height = 0;        ///< frame [pixels]
+    std::string
+        output;  ///< -o: a folder for the drivers' relative names, or the first driver's file
+    std::string
+        scene_path;  ///< of the .ass file: relative assets are searched beside it; named in headers
+    int aa_samples = 0;         ///< AA_samples: n * n samples a pixel
+    int spp = 0;                ///< samples a pixel, wins over aa_samples
+    int width = 0, height = 0;  ///< frame [pixels]
     std::optional<Region> region;
     int threads = 0;
     std::optional<std::uint32_t> seed;
-    std::string camera;               ///< name of a camera node
-    std::vector<std::string> aovs;    ///< "NAME TYPE": outputs added to the first driver
-    std::vector<std::string> lpes;    ///< "NAME EXPRESSION": expressions defined and output as RGB
-    bool lpe_standard = false;        ///< extensions of the language are errors
-    std::string lpe_table;            ///< "", "reference" or "arnold7"
-    std::string isa;                  ///< "", "sse2", "avx2", "avx512": pins the ray kernels
-    int roulette_depth = 4;           ///< scattering events before Russian roulette may end a path; negative: never
-    bool capture = false;             ///< keep the layers in memory (RenderResult::layers)
-    bool write_files = true;          ///< hand buckets to the drivers
+    std::string camera;             ///< name of a camera node
+    std::vector<std::string> aovs;  ///< "NAME TYPE": outputs added to the first driver
+    std::vector<std::string> lpes;  ///< "NAME EXPRESSION": expressions defined and output as RGB
+    bool lpe_standard = false;      ///< extensions of the language are errors
+    std::string lpe_table;          ///< "", "reference" or "arnold7"
+    std::string isa;                ///< "", "sse2", "avx2", "avx512": pins the ray kernels
+    int roulette_depth =
+        4;  ///< scattering events before Russian roulette may end a path; negative: never
+    bool capture = false;     ///< keep the layers in memory (RenderResult::layers)
+    bool write_files = true;  ///< hand buckets to the drivers
 };
 
 /// What `lightsieve check` tells of a scene.
 struct SceneSummary {
-    std::size_t n_shapes = 0, n_instances = 0, n_triangles = 0, n_spheres = 0, n_lights = 0, n_shaders = 0;
+    std::size_t n_shapes = 0, n_instances = 0, n_triangles = 0, n_spheres = 0, n_lights = 0,
+                n_shaders = 0;
     std::vector<std::string> light_groups;  ///< named ones, sorted
     std::size_t n_aovs = 0, n_states = 0, n_atoms = 0;
     int width = 0, height = 0, samples_per_pixel = 0;
-    std::vector<std::string> files;         ///< what a render would write
-    std::vector<ImageLayer> layers;         ///< all layers of all files
-    std::vector<int> layer_file;            ///< index into `files` of each layer
-    std::vector<std::string> partitions;    ///< "RGBA = direct + indirect + ..." proved for layers of one file
+    std::vector<std::string> files;  ///< what a render would write
+    std::vector<ImageLayer> layers;  ///< all layers of all files
+    std::vector<int> layer_file;     ///< index into `files` of each layer
+    std::vector<std::string>
+        partitions;  ///< "RGBA = direct + indirect + ..." proved for layers of one file
 };
 
 /// A Scene is opaque to callers and destroyed by this.
@@ -70,7 +75,8 @@ using ScenePtr = std::unique_ptr<Scene, SceneDelete>;
 /// Compiles everything; null if there is an error (all of them are in `diagnostics`).
 ///
 /// The graph must outlive the scene. Cost: geometry is copied and its acceleration structure built.
-[[nodiscard]] ScenePtr compile_scene(const SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics);
+[[nodiscard]] ScenePtr compile_scene(const SceneGraph& graph, const RenderOptions& options,
+                                     Diagnostics& diagnostics);
 
 [[nodiscard]] SceneSummary summarize(const Scene& scene);
 
@@ -81,29 +87,33 @@ struct RenderProgress {
 
 /// How a caller watches and stops a render.
 struct RenderControl {
-    std::function<void(const RenderProgress&)> progress;  ///< called from one thread at a time, after each bucket
-    const std::atomic<bool>* stop = nullptr;              ///< set it to end early: within a fraction of a second
+    std::function<void(const RenderProgress&)>
+        progress;  ///< called from one thread at a time, after each bucket
+    const std::atomic<bool>* stop =
+        nullptr;  ///< set it to end early: within a fraction of a second
 };
 
 /// A layer in memory, row 0 at the top.
 struct FrameLayer {
     ImageLayer info;
-    std::vector<float> pixels;  ///< height * width * n_channels of the rendered region; UINT as bits of a float
+    std::vector<float>
+        pixels;  ///< height * width * n_channels of the rendered region; UINT as bits of a float
 };
 
 struct RenderResult {
-    bool stopped = false;             ///< ended early: what was done is in the files
-    double seconds = 0;               ///< sampling time, without compile and file output
-    double output_seconds = 0;        ///< spent in drivers
-    std::uint64_t samples = 0;        ///< camera samples taken
-    std::uint64_t rays = 0;           ///< closest-hit and shadow rays
+    bool stopped = false;               ///< ended early: what was done is in the files
+    double seconds = 0;                 ///< sampling time, without compile and file output
+    double output_seconds = 0;          ///< spent in drivers
+    std::uint64_t samples = 0;          ///< camera samples taken
+    std::uint64_t rays = 0;             ///< closest-hit and shadow rays
     std::uint64_t dropped_samples = 0;  ///< contributions that were not finite
-    std::vector<std::string> files;   ///< written
-    std::vector<FrameLayer> layers;   ///< if RenderOptions::capture
-    int width = 0, height = 0;        ///< of the rendered region
+    std::vector<std::string> files;     ///< written
+    std::vector<FrameLayer> layers;     ///< if RenderOptions::capture
+    int width = 0, height = 0;          ///< of the rendered region
 };
 
 /// Renders. Opens every driver first; an unwritable one is an InputError before the first ray.
-[[nodiscard]] RenderResult render_scene(const Scene& scene, const RenderControl& control, Diagnostics& diagnostics);
+[[nodiscard]] RenderResult render_scene(const Scene& scene, const RenderControl& control,
+                                        Diagnostics& diagnostics);
 
 }  // namespace lightsieve

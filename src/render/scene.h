@@ -25,29 +25,31 @@ namespace lightsieve {
 /// One shape placed in the world.
 struct SceneObject {
     const ShapeGeometry* geometry = nullptr;
-    std::vector<Mat4f> world_from_object;  ///< keys over the shutter
-    std::vector<Mat4f> object_from_world;  ///< inverse of each key
+    std::vector<Mat4f> world_from_object;       ///< keys over the shutter
+    std::vector<Mat4f> object_from_world;       ///< inverse of each key
     std::vector<const ShaderProgram*> shaders;  ///< at least one; by the mesh's shader_index
-    const LightSampler* lights = nullptr;  ///< lights that illuminate it
+    const LightSampler* lights = nullptr;       ///< lights that illuminate it
     /// Lights that cast shadows on it, one flag a light; empty: all.
     std::vector<bool> shadow_lights;
     Name name;
     std::uint32_t id = 0;
     std::uint8_t visibility = 255, sidedness = 255;
     bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;
-    bool may_be_transparent = false;       ///< rays may pass straight through
-    bool may_tint_shadows = false;         ///< shadow rays may, though other rays do not
+    bool may_be_transparent = false;  ///< rays may pass straight through
+    bool may_tint_shadows = false;    ///< shadow rays may, though other rays do not
     /// What hides lights from it is not what hides them from a ray that leaves it: only light samples find lights.
-    [[nodiscard]] bool tampers_with_shadows() const { return !receive_shadows || !self_shadows || !shadow_lights.empty(); }
+    [[nodiscard]] bool tampers_with_shadows() const {
+        return !receive_shadows || !self_shadows || !shadow_lights.empty();
+    }
 };
 
 struct SceneLight {
     std::unique_ptr<Light> light;
     LightCommon common;
     Name name;
-    std::string group;                 ///< `default` if it has none
-    lpe::TerminalId as_light = 0;      ///< L
-    lpe::TerminalId as_background = 0; ///< B with the group, for skydomes
+    std::string group;                                    ///< `default` if it has none
+    lpe::TerminalId as_light = 0;                         ///< L
+    lpe::TerminalId as_background = 0;                    ///< B with the group, for skydomes
     std::uint32_t light_event = 0, background_event = 0;  ///< positions in Scene::events
     bool is_skydome = false;
     /// Its shadows are tampered with (cast_shadows off, shadow_density, shadow_color): only light samples find it.
@@ -57,16 +59,16 @@ struct SceneLight {
 /// What options and command line say, put together.
 struct RenderSettings {
     int width = 320, height = 240;
-    Region region;                     ///< inclusive, in pixels; may reach outside of the frame
+    Region region;  ///< inclusive, in pixels; may reach outside of the frame
     float pixel_aspect_ratio = 1;
     int bucket_size = 64;
-    int samples = 1;                   ///< camera samples a pixel
+    int samples = 1;  ///< camera samples a pixel
     std::uint32_t seed = 1;
     int threads = 0;
     DepthLimits depth;
     int auto_transparency_depth = 10;
-    float sample_clamp = kInfinity;    ///< AA_sample_clamp
-    float indirect_clamp = 10;         ///< indirect_sample_clamp
+    float sample_clamp = kInfinity;      ///< AA_sample_clamp
+    float indirect_clamp = 10;           ///< indirect_sample_clamp
     float low_light_threshold = 0.001F;  ///< light samples below it are traced only sometimes
     int roulette_depth = 4;
     float shutter_start = 0, shutter_end = 0;
@@ -80,24 +82,26 @@ class Scene {
     std::vector<std::unique_ptr<ShaderProgram>> shaders;
     std::vector<SceneObject> objects;
     std::vector<SceneLight> lights;
-    std::vector<std::uint32_t> infinite_lights;       ///< indices of lights that rays to infinity meet
-    std::vector<std::unique_ptr<LightSampler>> light_samplers;  ///< 0: all lights; others: light groups of shapes
-    std::vector<std::uint32_t> light_of_object;       ///< of light_accel: index into lights
-    std::vector<SceneObject> light_objects;           ///< geometry of area lights
-    std::unique_ptr<Accel> accel;                     ///< shapes
-    std::unique_ptr<Accel> light_accel;               ///< area lights; null if there are none
-    const ShaderProgram* background = nullptr;        ///< options.background
+    std::vector<std::uint32_t> infinite_lights;  ///< indices of lights that rays to infinity meet
+    std::vector<std::unique_ptr<LightSampler>>
+        light_samplers;                          ///< 0: all lights; others: light groups of shapes
+    std::vector<std::uint32_t> light_of_object;  ///< of light_accel: index into lights
+    std::vector<SceneObject> light_objects;      ///< geometry of area lights
+    std::unique_ptr<Accel> accel;                ///< shapes
+    std::unique_ptr<Accel> light_accel;          ///< area lights; null if there are none
+    const ShaderProgram* background = nullptr;   ///< options.background
     std::uint8_t background_visibility = 255;
-    LobeRecord background_record;                     ///< B without a group
-    std::vector<Event> events;                        ///< every event the scene can produce
-    lpe::TerminalId probe = 0;                        ///< A
+    LobeRecord background_record;  ///< B without a group
+    std::vector<Event> events;     ///< every event the scene can produce
+    lpe::TerminalId probe = 0;     ///< A
     std::uint32_t probe_event = 0;
     DepthRules depth_rules{{}, {}};
     /// Ray types that some shape treats unlike others (visibility, sidedness, matte): bits that must be told apart when tracing.
     std::uint8_t mask_types = 0;
-    bool shadows_by_mask = false;                     ///< some shape hides lights from shadow rays only, or from others only
-    bool has_transparency = false;                    ///< some shape may be transparent to shadows
-    bool capture = false, write_files = true;         ///< as RenderOptions
+    bool shadows_by_mask =
+        false;  ///< some shape hides lights from shadow rays only, or from others only
+    bool has_transparency = false;             ///< some shape may be transparent to shadows
+    bool capture = false, write_files = true;  ///< as RenderOptions
     AovPlan plan;
     SceneSummary summary;
 };

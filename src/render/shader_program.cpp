@@ -1,6 +1,5 @@
 #include "render/shader_program.h"
 
-
 #include <cmath>
 #include <cstring>
 #include <new>
@@ -14,7 +13,9 @@ namespace {
 /// Parameter structs hold nothing that needs more.
 constexpr std::size_t kBlockAlign = 16;
 
-float component_of(const ShaderValue& v, int i) { return i == 0 ? v.rgb.r : i == 1 ? v.rgb.g : i == 2 ? v.rgb.b : v.a; }
+float component_of(const ShaderValue& v, int i) {
+    return i == 0 ? v.rgb.r : i == 1 ? v.rgb.g : i == 2 ? v.rgb.b : v.a;
+}
 
 template <class T>
 void store(std::byte* at, T value) {
@@ -33,10 +34,13 @@ std::int32_t to_int(float v) {
 void store_scalar(std::byte* at, ParamType type, float v) {
     switch (type) {
         case ParamType::Bool: return store(at, v != 0);
-        case ParamType::Byte: return store(at, static_cast<std::uint8_t>(std::fmin(std::fmax(v, 0.0F), 255.0F)));
+        case ParamType::Byte:
+            return store(at, static_cast<std::uint8_t>(std::fmin(std::fmax(v, 0.0F), 255.0F)));
         case ParamType::Int:
         case ParamType::Enum: return store(at, to_int(v));
-        case ParamType::UInt: return store(at, static_cast<std::uint32_t>(std::fmin(std::fmax(v, 0.0F), 4294967040.0F)));
+        case ParamType::UInt:
+            return store(at,
+                         static_cast<std::uint32_t>(std::fmin(std::fmax(v, 0.0F), 4294967040.0F)));
         default: return store(at, v);
     }
 }
@@ -44,7 +48,9 @@ void store_scalar(std::byte* at, ParamType type, float v) {
 /// Memory for one patched block, given back when the evaluation ends: networks nest, so the arena works as a stack.
 class Scratch {
   public:
-    explicit Scratch(std::size_t size) : mark_(arena().mark()), bytes_(static_cast<std::byte*>(arena().allocate(size, kBlockAlign))) {}
+    explicit Scratch(std::size_t size)
+        : mark_(arena().mark()),
+          bytes_(static_cast<std::byte*>(arena().allocate(size, kBlockAlign))) {}
     ~Scratch() { arena().release(mark_); }
     Scratch(const Scratch&) = delete;
     Scratch& operator=(const Scratch&) = delete;
@@ -69,7 +75,8 @@ int n_components(ParamType type) {
     }
 }
 
-void store_value(std::byte* block, const ShaderProgram::Patch& p, const ShaderValue& v, OutputType from) {
+void store_value(std::byte* block, const ShaderProgram::Patch& p, const ShaderValue& v,
+                 OutputType from) {
     std::byte* at = block + p.offset;
     const bool scalar_source = p.source_component >= 0;
     // A colour that drives a float gives the mean of its channels.
@@ -78,19 +85,23 @@ void store_value(std::byte* block, const ShaderProgram::Patch& p, const ShaderVa
     const int n = n_components(p.type);
     if (n == 1) return store_scalar(at, p.type, one);
     if (p.component >= 0) {
-        if (p.component < n) store(at + static_cast<std::size_t>(p.component) * sizeof(float), one);
+        if (p.component < n)
+            store(at + static_cast<std::size_t>(p.component) * sizeof(float), one);
         return;
     }
     for (int i = 0; i < n; ++i) {
         const float x = scalar_source ? one : finite(component_of(v, i));
-        store(at + static_cast<std::size_t>(i) * sizeof(float), scalar_source && i == 3 ? 1.0F : x);
+        store(at + static_cast<std::size_t>(i) * sizeof(float),
+              scalar_source && i == 3 ? 1.0F : x);
     }
 }
 
 }  // namespace
 
 ShaderProgram::ShaderProgram(const NodeType& type, const std::byte* block)
-    : type_(&type), block_(static_cast<std::byte*>(::operator new[](type.block_size, std::align_val_t{kBlockAlign}))) {
+    : type_(&type),
+      block_(static_cast<std::byte*>(
+          ::operator new[](type.block_size, std::align_val_t{kBlockAlign}))) {
     LIGHTSIEVE_ASSERT(type.block_align <= kBlockAlign, type.name.str());
     std::memcpy(block_.get(), block, type.block_size);
 }

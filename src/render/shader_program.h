@@ -20,11 +20,11 @@ class ShaderProgram {
   public:
     /// One linked parameter (or component of one).
     struct Patch {
-        std::size_t offset = 0;      ///< of the parameter in the block
-        ParamType type{};            ///< of the parameter
-        int component = -1;          ///< 0..3, or -1: the whole value
+        std::size_t offset = 0;  ///< of the parameter in the block
+        ParamType type{};        ///< of the parameter
+        int component = -1;      ///< 0..3, or -1: the whole value
         const ShaderProgram* source = nullptr;
-        int source_component = -1;   ///< 0..3, or -1: the whole value
+        int source_component = -1;  ///< 0..3, or -1: the whole value
     };
 
     ShaderProgram(const NodeType& type, const std::byte* block);

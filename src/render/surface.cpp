@@ -32,20 +32,23 @@ struct Placement {
 /// Calls `body` with the object's placement; matrices of things at rest are not copied.
 template <class Body>
 auto with_placement(const SceneObject& object, float time, const Body& body) {
-    if (object.world_from_object.size() == 1) return body(Placement{object.world_from_object[0], object.object_from_world[0]});
+    if (object.world_from_object.size() == 1)
+        return body(Placement{object.world_from_object[0], object.object_from_world[0]});
     const KeyBlend k = blend_at(object.world_from_object.size(), time);
-    const Mat4f m = lerp(object.world_from_object[k.first], object.world_from_object[k.second], k.f), inverse = m.inverse();
+    const Mat4f m = lerp(object.world_from_object[k.first], object.world_from_object[k.second],
+                         k.f),
+                inverse = m.inverse();
     return body(Placement{m, inverse});
 }
 
 /// What a primitive says about a point, object space.
 struct LocalPoint {
     Vec3f position;
-    Vec3f geometric_normal;   ///< not normalised
-    Vec3f shading_normal;     ///< world space, as modelled (not turned to the viewer); not normalised
-    Vec3f dp_du;              ///< zero if there is no uv
+    Vec3f geometric_normal;  ///< not normalised
+    Vec3f shading_normal;  ///< world space, as modelled (not turned to the viewer); not normalised
+    Vec3f dp_du;           ///< zero if there is no uv
     Vec2f uv;
-    float uv_per_unit = 0;    ///< uv length per object-space length
+    float uv_per_unit = 0;  ///< uv length per object-space length
     std::uint32_t face = 0;
     std::size_t shader = 0;
 };
@@ -68,14 +71,16 @@ Vec3f bent_to_viewer(Vec3f normal, Vec3f wo) {
 }
 
 /// Interpolates the normals of a triangle's corners, world space.
-Vec3f smooth_normal(const TriangleMesh& mesh, std::size_t first, std::array<float, 3> weights, const View& view, Vec3f face_normal) {
+Vec3f smooth_normal(const TriangleMesh& mesh, std::size_t first, std::array<float, 3> weights,
+                    const View& view, Vec3f face_normal) {
     const KeyBlend k = blend_at(mesh.normals.size(), view.time);
     // The side of the surface that is seen decides which way corner normals face.
     const float side = dot(face_normal, view.wo) < 0 ? -1.0F : 1.0F;
     Vec3f sum;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3f local = key_value(mesh.normals, k, mesh.normal_indices[first + i]);
-        const Vec3f corner = normalize(view.place.object_from_world.normal_by_inverse(local), face_normal);
+        const Vec3f corner =
+            normalize(view.place.object_from_world.normal_by_inverse(local), face_normal);
         sum += bent_to_viewer(corner * side, view.wo) * weights[i];
     }
     return length_squared(sum) > 0 ? sum * side : face_normal;
@@ -86,16 +91,21 @@ LocalPoint resolve(const TriangleMesh& mesh, const RayHit& hit, const View& view
     const std::size_t t = std::size_t{hit.primitive} * 3;
     const float b1 = hit.barycentric.x, b2 = hit.barycentric.y, b0 = 1 - b1 - b2;
     const KeyBlend k = blend_at(mesh.positions.size(), time);
-    const Vec3f p0 = key_value(mesh.positions, k, mesh.indices[t]), p1 = key_value(mesh.positions, k, mesh.indices[t + 1]), p2 = key_value(mesh.positions, k, mesh.indices[t + 2]);
+    const Vec3f p0 = key_value(mesh.positions, k, mesh.indices[t]),
+                p1 = key_value(mesh.positions, k, mesh.indices[t + 1]),
+                p2 = key_value(mesh.positions, k, mesh.indices[t + 2]);
     LocalPoint out;
     out.position = p0 * b0 + p1 * b1 + p2 * b2;
     out.geometric_normal = cross(p1 - p0, p2 - p0);
-    out.shading_normal = normalize(view.place.object_from_world.normal_by_inverse(out.geometric_normal));
-    if (!mesh.normals.empty()) out.shading_normal = smooth_normal(mesh, t, {b0, b1, b2}, view, out.shading_normal);
+    out.shading_normal =
+        normalize(view.place.object_from_world.normal_by_inverse(out.geometric_normal));
+    if (!mesh.normals.empty())
+        out.shading_normal = smooth_normal(mesh, t, {b0, b1, b2}, view, out.shading_normal);
     if (!mesh.face.empty()) out.face = mesh.face[hit.primitive];
     if (!mesh.shader_index.empty()) out.shader = mesh.shader_index[hit.primitive];
     if (mesh.uvs.empty()) return out;
-    const Vec2f uv0 = mesh.uvs[mesh.uv_indices[t]], uv1 = mesh.uvs[mesh.uv_indices[t + 1]], uv2 = mesh.uvs[mesh.uv_indices[t + 2]];
+    const Vec2f uv0 = mesh.uvs[mesh.uv_indices[t]], uv1 = mesh.uvs[mesh.uv_indices[t + 1]],
+                uv2 = mesh.uvs[mesh.uv_indices[t + 2]];
     out.uv = uv0 * b0 + uv1 * b1 + uv2 * b2;
     const Vec2f d1 = uv1 - uv0, d2 = uv2 - uv0;
     const float det = d1.x * d2.y - d1.y * d2.x;
@@ -116,21 +126,25 @@ LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const View& vie
     out.geometric_normal = n;
     out.shading_normal = view.place.object_from_world.normal_by_inverse(n);
     out.dp_du = {n.z, 0, -n.x};
-    out.uv = {0.5F + std::atan2(n.x, n.z) * (0.5F * kInvPi), 0.5F + std::asin(std::clamp(n.y, -1.0F, 1.0F)) * kInvPi};
+    out.uv = {0.5F + std::atan2(n.x, n.z) * (0.5F * kInvPi),
+              0.5F + std::asin(std::clamp(n.y, -1.0F, 1.0F)) * kInvPi};
     out.uv_per_unit = radius > 0 ? 1 / (kPi * radius) : 0;
     return out;
 }
 
-Surface surface_at(const Placement& place, const SceneObject& object, const Ray& ray, const RayHit& hit, const Footprint& footprint) {
+Surface surface_at(const Placement& place, const SceneObject& object, const Ray& ray,
+                   const RayHit& hit, const Footprint& footprint) {
     const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time};
-    const LocalPoint local = std::visit([&](const auto& g) { return resolve(g, hit, view); }, object.geometry->data);
+    const LocalPoint local =
+        std::visit([&](const auto& g) { return resolve(g, hit, view); }, object.geometry->data);
     Surface out;
     out.object = &object;
     out.t = hit.t;
     out.shader = object.shaders[std::min(local.shader, object.shaders.size() - 1)];
     const Vec3f wo = view.wo;
     const float outside = object.invert_normals ? -1.0F : 1.0F;
-    const Vec3f geometric = normalize(place.object_from_world.normal_by_inverse(local.geometric_normal) * outside);
+    const Vec3f geometric =
+        normalize(place.object_from_world.normal_by_inverse(local.geometric_normal) * outside);
     const Vec3f shading = normalize(local.shading_normal * outside, geometric);
     ShadePoint& at = out.at;
     at.position = place.world_from_object.point(local.position);
@@ -147,7 +161,8 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     if (local.uv_per_unit > 0) {
         const float cosine = std::max(0.1F, std::abs(dot(geometric, wo)));
         const float scale = length(local.dp_du) > 0 ? length(tangent) / length(local.dp_du) : 1;
-        at.uv_width = local.uv_per_unit * (footprint.width + footprint.spread * hit.t) / (cosine * std::max(scale, 1e-20F));
+        at.uv_width = local.uv_per_unit * (footprint.width + footprint.spread * hit.t) /
+                      (cosine * std::max(scale, 1e-20F));
     }
     at.face = local.face;
     at.shape_id = object.id;
@@ -157,21 +172,29 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     return out;
 }
 
-LightHit light_hit_at(const Placement& place, const SceneObject& object, const Ray& ray, const RayHit& hit) {
+LightHit light_hit_at(const Placement& place, const SceneObject& object, const Ray& ray,
+                      const RayHit& hit) {
     const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time};
-    const LocalPoint local = std::visit([&](const auto& g) { return resolve(g, hit, view); }, object.geometry->data);
-    const Vec3f normal = normalize(place.object_from_world.normal_by_inverse(local.geometric_normal));
+    const LocalPoint local =
+        std::visit([&](const auto& g) { return resolve(g, hit, view); }, object.geometry->data);
+    const Vec3f normal =
+        normalize(place.object_from_world.normal_by_inverse(local.geometric_normal));
     return {place.world_from_object.point(local.position), normal, local.uv, hit.primitive, hit.t};
 }
 
 }  // namespace
 
-Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit, const Footprint& footprint) {
-    return with_placement(object, ray.time, [&](const Placement& place) { return surface_at(place, object, ray, hit, footprint); });
+Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit,
+                     const Footprint& footprint) {
+    return with_placement(object, ray.time, [&](const Placement& place) {
+        return surface_at(place, object, ray, hit, footprint);
+    });
 }
 
 LightHit make_light_hit(const SceneObject& object, const Ray& ray, const RayHit& hit) {
-    return with_placement(object, ray.time, [&](const Placement& place) { return light_hit_at(place, object, ray, hit); });
+    return with_placement(object, ray.time, [&](const Placement& place) {
+        return light_hit_at(place, object, ray, hit);
+    });
 }
 
 }  // namespace lightsieve

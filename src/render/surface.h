@@ -10,12 +10,12 @@ namespace lightsieve {
 
 /// A hit with its geometry resolved.
 struct Surface {
-    ShadePoint at;                          ///< filled for shaders
-    Frame frame;                            ///< shading frame: z is at.normal, x along dP/du
-    Vec3f outward;                          ///< unit geometric normal on the side of wo
+    ShadePoint at;  ///< filled for shaders
+    Frame frame;    ///< shading frame: z is at.normal, x along dP/du
+    Vec3f outward;  ///< unit geometric normal on the side of wo
     const SceneObject* object = nullptr;
     const ShaderProgram* shader = nullptr;
-    float t = 0;                            ///< along the ray
+    float t = 0;  ///< along the ray
 };
 
 /// Width of a ray's footprint, for texture filtering: `width + spread * distance` scene units.
@@ -24,9 +24,11 @@ struct Footprint {
 };
 
 /// Resolves a hit on `object`. Everything in world space.
-[[nodiscard]] Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit, const Footprint& footprint);
+[[nodiscard]] Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit,
+                                   const Footprint& footprint);
 
 /// The same as far as lights need it: position, outward normal as modelled, uv.
-[[nodiscard]] LightHit make_light_hit(const SceneObject& object, const Ray& ray, const RayHit& hit);
+[[nodiscard]] LightHit make_light_hit(const SceneObject& object, const Ray& ray,
+                                      const RayHit& hit);
 
 }  // namespace lightsieve

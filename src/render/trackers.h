@@ -26,8 +26,12 @@ struct AutomatonMachine {
     static constexpr std::size_t kMaxTerms = 24;
     const lpe::Automaton* automaton = nullptr;
     [[nodiscard]] State start() const { return automaton->start(); }
-    [[nodiscard]] State step(State state, const LobeRecord& record) const { return automaton->step(state, record.event_class); }
-    [[nodiscard]] bool live(State state) const { return automaton->live_light(state) || automaton->live_probe(state); }
+    [[nodiscard]] State step(State state, const LobeRecord& record) const {
+        return automaton->step(state, record.event_class);
+    }
+    [[nodiscard]] bool live(State state) const {
+        return automaton->live_light(state) || automaton->live_probe(state);
+    }
 };
 
 /// Adds light to atoms. One set of terms for each automaton.
@@ -52,7 +56,8 @@ class AovTracker {
             set.terms.keep_only(group, factor);
     }
     template <class Random>
-    void scatter(std::span<const Channel> channels, std::span<const Color> factors, const PathGroups::Step& step, const Random& random) {
+    void scatter(std::span<const Channel> channels, std::span<const Color> factors,
+                 const PathGroups::Step& step, const Random& random) {
         for (Set& set : sets_)
             set.terms.scatter(set.machine, channels, factors, step, random);
     }
@@ -69,18 +74,21 @@ class AovTracker {
         for (const Set& set : sets_)
             for (const auto& t : set.terms.all()) {
                 const lpe::AtomId atom = set.machine.automaton->atom(t.state, terminal.id);
-                if (atom != lpe::kNoAtom) store(terminal, atom, t.throughput * value(t.group) * scale);
+                if (atom != lpe::kNoAtom)
+                    store(terminal, atom, t.throughput * value(t.group) * scale);
             }
     }
     /// Light that arrives after scattering by each channel: value(group, channel).
     template <class Value>
-    void add_scattered(std::span<const Channel> channels, Terminal terminal, const Value& value, float scale) {
+    void add_scattered(std::span<const Channel> channels, Terminal terminal, const Value& value,
+                       float scale) {
         for (const Set& set : sets_)
             for (const auto& t : set.terms.all())
                 for (std::size_t c = 0; c < channels.size(); ++c) {
                     const lpe::State state = set.machine.step(t.state, *channels[c].record);
                     const lpe::AtomId atom = set.machine.automaton->atom(state, terminal.id);
-                    if (atom != lpe::kNoAtom) store(terminal, atom, t.throughput * value(t.group, c) * scale);
+                    if (atom != lpe::kNoAtom)
+                        store(terminal, atom, t.throughput * value(t.group, c) * scale);
                 }
     }
 
@@ -90,7 +98,9 @@ class AovTracker {
         PathTerms<AutomatonMachine> terms;
     };
     void store(Terminal terminal, lpe::AtomId atom, Color value) {
-        if (!is_black(value)) (terminal.event == probe_event_ ? out_->probes : out_->contributions).push_back({atom, value});
+        if (!is_black(value))
+            (terminal.event == probe_event_ ? out_->probes : out_->contributions)
+                .push_back({atom, value});
     }
 
     std::vector<Set> sets_;

@@ -10,7 +10,8 @@
 namespace lightsieve::testing {
 namespace {
 
-const std::vector<std::string> kAovs{"diffuse_direct", "diffuse_indirect", "specular_indirect", "coat", "transmission"};
+const std::vector<std::string> kAovs{"diffuse_direct", "diffuse_indirect", "specular_indirect",
+                                     "coat", "transmission"};
 
 /// Means of the beauty and of AOVs agree, pixel by pixel in pairs: 6 layers of 3 channels, a false alarm in 8000 seeds.
 void expect_same_means(const Picture& a, const Picture& b) {
@@ -24,7 +25,8 @@ TEST(Unbiased, RouletteMovesNoAov) {
     early.spp = never.spp = 16;
     early.roulette_depth = 0;
     never.roulette_depth = -1;
-    const Picture a = render(TestScene(scene_file("laws_lobes.ass"), early, {"caustics"})), b = render(TestScene(scene_file("laws_lobes.ass"), never, {"caustics"}));
+    const Picture a = render(TestScene(scene_file("laws_lobes.ass"), early, {"caustics"})),
+                  b = render(TestScene(scene_file("laws_lobes.ass"), never, {"caustics"}));
     EXPECT_FALSE(check_identical(a, "RGBA", b, "RGBA")) << "roulette must have acted";
     expect_same_means(a, b);
 }
@@ -34,7 +36,8 @@ TEST(Unbiased, LowLightThresholdMovesNoAov) {
     options.spp = 16;
     const auto with = [&](const char* threshold) {
         std::string text = scene_file("laws_lobes.ass");
-        text.replace(text.find("AA_samples 2"), 12, std::string("AA_samples 2\n low_light_threshold ") + threshold);
+        text.replace(text.find("AA_samples 2"), 12,
+                     std::string("AA_samples 2\n low_light_threshold ") + threshold);
         return render(TestScene(text, options, {"caustics"}));
     };
     const Picture a = with("0"), b = with("0.2");
@@ -46,23 +49,35 @@ TEST(Unbiased, LowLightThresholdMovesNoAov) {
 
 /// A closed room of half metal, half diffuse walls with a lamp: two events at every vertex.
 std::string two_lobe_room() {
-    std::string text = frame_text(10, 10, 4, persp_camera({0.1F, 0.2F, 0.5F}, {0.3F, -0.2F, -1}, 70), " GI_diffuse_depth 8\n GI_specular_depth 8\n GI_total_depth 8\n indirect_sample_clamp 1e6") +
-                       node("standard_surface", "wall", " specular 0\n metalness 0.5\n base_color 0.8 0.7 0.9\n specular_roughness 0.6\n caustics on");
+    std::string text =
+        frame_text(10, 10, 4, persp_camera({0.1F, 0.2F, 0.5F}, {0.3F, -0.2F, -1}, 70),
+                   " GI_diffuse_depth 8\n GI_specular_depth 8\n GI_total_depth 8\n "
+                   "indirect_sample_clamp 1e6") +
+        node("standard_surface", "wall",
+             " specular 0\n metalness 0.5\n base_color 0.8 0.7 0.9\n specular_roughness 0.6\n "
+             "caustics on");
     text += floor("below", -1, 1, "wall") + floor("above", 1, 1, "wall");
-    text += quad("left", {-1, -1, -1}, {-1, -1, 1}, {-1, 1, 1}, {-1, 1, -1}, "wall") + quad("right", {1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1}, "wall");
-    text += quad("back", {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, "wall") + quad("front", {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}, "wall");
-    return text + node("quad_light", "key", " vertices 4 1 VECTOR -0.3 0.9 -0.3  0.3 0.9 -0.3  0.3 0.9 0.3  -0.3 0.9 0.3");
+    text += quad("left", {-1, -1, -1}, {-1, -1, 1}, {-1, 1, 1}, {-1, 1, -1}, "wall") +
+            quad("right", {1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1}, "wall");
+    text += quad("back", {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, "wall") +
+            quad("front", {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}, "wall");
+    return text +
+           node("quad_light", "key",
+                " vertices 4 1 VECTOR -0.3 0.9 -0.3  0.3 0.9 -0.3  0.3 0.9 0.3  -0.3 0.9 0.3");
 }
 
 TEST(Unbiased, TooManyTermsAreReducedWithoutMovingMeansOrSums) {
     // Which lobe was the sixth before last: 64 states, more than a path keeps terms.
-    RenderOptions options = in_memory({}, {"sixth_d C.*<RD>.{5}L", "sixth_s C.*<RS>.{5}L", "short C.{0,5}L"});
+    RenderOptions options =
+        in_memory({}, {"sixth_d C.*<RD>.{5}L", "sixth_s C.*<RS>.{5}L", "short C.{0,5}L"});
     options.roulette_depth = -1;
     const TestScene scene(two_lobe_room(), options);
     const Picture picture = render(scene);
-    EXPECT_TRUE(check_sum(picture, "RGBA", {"sixth_d", "sixth_s", "short"})) << "reduction keeps the sum";
+    EXPECT_TRUE(check_sum(picture, "RGBA", {"sixth_d", "sixth_s", "short"}))
+        << "reduction keeps the sum";
     const std::vector<LoggedPath> paths = log_paths(scene.scene());
-    EXPECT_FALSE(check_oracle(scene.scene(), picture, paths)) << "reduction must have acted, else this test shows nothing";
+    EXPECT_FALSE(check_oracle(scene.scene(), picture, paths))
+        << "reduction must have acted, else this test shows nothing";
     // Against the log, which never reduces: differences have mean 0. 6 comparisons.
     std::array<std::array<std::vector<double>, 3>, 2> difference;
     for (auto& aov : difference)
@@ -70,15 +85,21 @@ TEST(Unbiased, TooManyTermsAreReducedWithoutMovingMeansOrSums) {
             channel.resize(picture.n_pixels());
     for (const LoggedPath& path : paths) {
         if (path.events.size() < 7) continue;
-        const bool diffuse = scene.scene().events[path.events[path.events.size() - 7]].lobe == EventLobe::Diffuse;
+        const bool diffuse =
+            scene.scene().events[path.events[path.events.size() - 7]].lobe == EventLobe::Diffuse;
         for (std::size_t c = 0; c < 3; ++c)
-            difference[diffuse ? 0 : 1][c][static_cast<std::size_t>(path.y * picture.width() + path.x)] -= static_cast<double>(path.value[static_cast<int>(c)]) / scene.scene().settings.samples;
+            difference[diffuse ? 0 : 1][c]
+                      [static_cast<std::size_t>(path.y * picture.width() + path.x)] -=
+                static_cast<double>(path.value[static_cast<int>(c)]) /
+                scene.scene().settings.samples;
     }
     for (std::size_t aov : {0U, 1U})
         for (std::size_t c = 0; c < 3; ++c) {
             for (std::size_t i = 0; i < picture.n_pixels(); ++i)
-                difference[aov][c][i] += static_cast<double>(picture.color(aov == 0 ? "sixth_d" : "sixth_s", i)[static_cast<int>(c)]);
-            EXPECT_TRUE(check_mean_of(difference[aov][c], 0, aov == 0 ? "sixth_d minus log" : "sixth_s minus log"));
+                difference[aov][c][i] += static_cast<double>(
+                    picture.color(aov == 0 ? "sixth_d" : "sixth_s", i)[static_cast<int>(c)]);
+            EXPECT_TRUE(check_mean_of(difference[aov][c], 0,
+                                      aov == 0 ? "sixth_d minus log" : "sixth_s minus log"));
         }
 }
 
@@ -86,12 +107,18 @@ TEST(Unbiased, PathsEndOnlyWhenEveryTermIsDead) {
     // Without the beauty a path may stop early; what is asked for must be the same light.
     const auto only = [](const char* output) {
         std::string text = scene_file("laws_lobes.ass");
-        text.replace(text.find("outputs \"RGBA RGBA f d\""), 23, std::string("outputs \"") + output + " RGB f d\"");
+        text.replace(text.find("outputs \"RGBA RGBA f d\""), 23,
+                     std::string("outputs \"") + output + " RGB f d\"");
         return render(TestScene(text, in_memory(), {"caustics"}));
     };
-    const Picture all = render(TestScene(scene_file("laws_lobes.ass"), in_memory({"emission", "coat_direct", "transmission_indirect", "diffuse_albedo", "background"}), {"caustics"}));
+    const Picture all =
+        render(TestScene(scene_file("laws_lobes.ass"),
+                         in_memory({"emission", "coat_direct", "transmission_indirect",
+                                    "diffuse_albedo", "background"}),
+                         {"caustics"}));
     std::uint64_t rays = all.result().rays;
-    for (const char* aov : {"transmission_indirect", "coat_direct", "diffuse_albedo", "emission", "background"}) {
+    for (const char* aov :
+         {"transmission_indirect", "coat_direct", "diffuse_albedo", "emission", "background"}) {
         const Picture alone = only(aov);
         EXPECT_TRUE(check_lit(alone, aov));
         EXPECT_TRUE(check_equal(alone, aov, all, aov));

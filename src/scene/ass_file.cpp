@@ -20,7 +20,8 @@ struct GzClose {
 
 }  // namespace
 
-std::optional<std::string> read_text_file(const std::string& path, Diagnostics& diagnostics, std::size_t max_bytes) {
+std::optional<std::string> read_text_file(const std::string& path, Diagnostics& diagnostics,
+                                          std::size_t max_bytes) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) {
@@ -33,7 +34,8 @@ std::optional<std::string> read_text_file(const std::string& path, Diagnostics& 
     }
     const std::unique_ptr<gzFile_s, GzClose> file(gzopen(path.c_str(), "rb"));
     if (!file) {
-        diagnostics.error(Code::FileUnreadable, "file \"" + path + "\" cannot be read: " + std::strerror(errno));
+        diagnostics.error(Code::FileUnreadable,
+                          "file \"" + path + "\" cannot be read: " + std::strerror(errno));
         return std::nullopt;
     }
     gzbuffer(file.get(), kChunk / 4);
@@ -49,7 +51,9 @@ std::optional<std::string> read_text_file(const std::string& path, Diagnostics& 
         const int n = gzread(file.get(), text.data() + before, kChunk);
         text.resize(before + static_cast<std::size_t>(std::max(n, 0)));
         if (text.size() > max_bytes) {
-            diagnostics.error(Code::LimitFileSize, "file \"" + path + "\" is too large", {}, "at most " + std::to_string(max_bytes) + " bytes after decompression (kMaxSceneBytes)");
+            diagnostics.error(Code::LimitFileSize, "file \"" + path + "\" is too large", {},
+                              "at most " + std::to_string(max_bytes) +
+                                  " bytes after decompression (kMaxSceneBytes)");
             return std::nullopt;
         }
         if (n <= 0) break;
@@ -58,7 +62,9 @@ std::optional<std::string> read_text_file(const std::string& path, Diagnostics& 
     int code = Z_OK;
     const char* message = gzerror(file.get(), &code);
     if (code != Z_OK && code != Z_STREAM_END) {
-        diagnostics.error(Code::FileFormat, "file \"" + path + "\" cannot be decompressed: " + std::string(message), {}, "the file is damaged or cut off");
+        diagnostics.error(Code::FileFormat,
+                          "file \"" + path + "\" cannot be decompressed: " + std::string(message),
+                          {}, "the file is damaged or cut off");
         return std::nullopt;
     }
     return text;

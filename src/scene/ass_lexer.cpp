@@ -18,10 +18,14 @@ enum : std::uint8_t { kBlank = 1, kDelimiter = 2, kNumberStart = 4 };
 
 constexpr std::array<std::uint8_t, 256> make_classes() {
     std::array<std::uint8_t, 256> table{};
-    for (const unsigned char c : {' ', '\t', '\n', '\v', '\f', '\r'}) table[c] = kBlank | kDelimiter;
-    for (const unsigned char c : {'{', '}', '"'}) table[c] = kDelimiter;
-    for (unsigned char c = '0'; c <= '9'; ++c) table[c] = kNumberStart;
-    for (const unsigned char c : {'+', '-', '.'}) table[c] = kNumberStart;
+    for (const unsigned char c : {' ', '\t', '\n', '\v', '\f', '\r'})
+        table[c] = kBlank | kDelimiter;
+    for (const unsigned char c : {'{', '}', '"'})
+        table[c] = kDelimiter;
+    for (unsigned char c = '0'; c <= '9'; ++c)
+        table[c] = kNumberStart;
+    for (const unsigned char c : {'+', '-', '.'})
+        table[c] = kNumberStart;
     return table;
 }
 constexpr std::array<std::uint8_t, 256> kClass = make_classes();
@@ -43,10 +47,14 @@ struct TypeName {
     ParamType type;
 };
 constexpr std::array kTypeNames{
-    TypeName{"BOOL", ParamType::Bool},     TypeName{"BYTE", ParamType::Byte},     TypeName{"INT", ParamType::Int},         TypeName{"UINT", ParamType::UInt},
-    TypeName{"FLOAT", ParamType::Float},   TypeName{"RGB", ParamType::Rgb},       TypeName{"RGBA", ParamType::Rgba},       TypeName{"VECTOR", ParamType::Vector},
-    TypeName{"POINT", ParamType::Vector},  TypeName{"VECTOR2", ParamType::Vector2}, TypeName{"POINT2", ParamType::Vector2}, TypeName{"STRING", ParamType::String},
-    TypeName{"ENUM", ParamType::Enum},     TypeName{"MATRIX", ParamType::Matrix}, TypeName{"NODE", ParamType::Node},       TypeName{"POINTER", ParamType::Node},
+    TypeName{"BOOL", ParamType::Bool},      TypeName{"BYTE", ParamType::Byte},
+    TypeName{"INT", ParamType::Int},        TypeName{"UINT", ParamType::UInt},
+    TypeName{"FLOAT", ParamType::Float},    TypeName{"RGB", ParamType::Rgb},
+    TypeName{"RGBA", ParamType::Rgba},      TypeName{"VECTOR", ParamType::Vector},
+    TypeName{"POINT", ParamType::Vector},   TypeName{"VECTOR2", ParamType::Vector2},
+    TypeName{"POINT2", ParamType::Vector2}, TypeName{"STRING", ParamType::String},
+    TypeName{"ENUM", ParamType::Enum},      TypeName{"MATRIX", ParamType::Matrix},
+    TypeName{"NODE", ParamType::Node},      TypeName{"POINTER", ParamType::Node},
 };
 
 }  // namespace
@@ -73,19 +81,23 @@ Token AssLexer::next() {
     const char c = peek();
     Token token;
     token.offset = at_;
-    token.first_in_line = before == 0 || (at_ > before && text_.substr(before, at_ - before).find('\n') != std::string_view::npos);
+    token.first_in_line =
+        before == 0 ||
+        (at_ > before && text_.substr(before, at_ - before).find('\n') != std::string_view::npos);
     if (at_ == text_.size()) return token;
     std::size_t end = at_ + 1;
     if (c == '{' || c == '}') {
         token.kind = c == '{' ? TokenKind::Open : TokenKind::Close;
     } else if (c == '"') {
         token.kind = TokenKind::String;
-        while (end < text_.size() && text_[end] != '"') end += text_[end] == '\\' && end + 1 < text_.size() ? 2 : 1;
+        while (end < text_.size() && text_[end] != '"')
+            end += text_[end] == '\\' && end + 1 < text_.size() ? 2 : 1;
         token.closed = end < text_.size();
         if (token.closed) ++end;
     } else {
         token.kind = TokenKind::Word;
-        while (end < text_.size() && (class_of(text_[end]) & kDelimiter) == 0) ++end;
+        while (end < text_.size() && (class_of(text_[end]) & kDelimiter) == 0)
+            ++end;
     }
     token.length = end - at_;
     at_ = end;
@@ -102,7 +114,8 @@ std::optional<float> parse_float(std::string_view token) {
     float value = 0;
     const auto [end, error] = std::from_chars(first, last, value);
     if (error == std::errc() && end == last) return value;
-    if (error == std::errc::result_out_of_range && end == last) return std::strtof(std::string(first, last).c_str(), nullptr);
+    if (error == std::errc::result_out_of_range && end == last)
+        return std::strtof(std::string(first, last).c_str(), nullptr);
     return parse_msvc_special(token);
 }
 
@@ -116,7 +129,9 @@ std::optional<std::int64_t> parse_integer(std::string_view token) {
     // Whole numbers in a float's clothes. Doubles hold every 32-bit integer exactly.
     double number = 0;
     const auto [float_end, float_error] = std::from_chars(first, last, number);
-    if (float_error != std::errc() || float_end != last || std::abs(number) > 1e15 || number != std::floor(number)) return std::nullopt;
+    if (float_error != std::errc() || float_end != last || std::abs(number) > 1e15 ||
+        number != std::floor(number))
+        return std::nullopt;
     return static_cast<std::int64_t>(number);
 }
 
@@ -126,7 +141,9 @@ std::string unquote(std::string_view token) {
     out.reserve(token.size());
     for (std::size_t i = 0; i < token.size(); ++i) {
         if (token[i] == '"') break;
-        if (token[i] == '\\' && i + 1 < token.size() && (token[i + 1] == '"' || token[i + 1] == '\\')) ++i;
+        if (token[i] == '\\' && i + 1 < token.size() &&
+            (token[i + 1] == '"' || token[i + 1] == '\\'))
+            ++i;
         out += token[i];
     }
     return out;
@@ -167,7 +184,8 @@ std::optional<ParamName> parse_param_name(std::string_view text) {
         text = text.substr(0, open);
     }
     const char first = text.empty() ? '\0' : text[0];
-    const bool starts_well = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '_';
+    const bool starts_well =
+        (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first == '_';
     if (!starts_well || text.find('[') != std::string_view::npos) return std::nullopt;
     for (const char c : text)
         if (static_cast<unsigned char>(c) < 0x20) return std::nullopt;
@@ -180,8 +198,13 @@ namespace {
 /// Reads one value; holds what every step needs.
 class ValueLexer {
   public:
-    ValueLexer(AssLexer& lexer, const std::shared_ptr<const SourceText>& source, std::uint32_t source_index, std::string_view what, Diagnostics& diagnostics)
-        : lexer_(lexer), source_(source), source_index_(source_index), what_(what), diagnostics_(diagnostics) {}
+    ValueLexer(AssLexer& lexer, const std::shared_ptr<const SourceText>& source,
+               std::uint32_t source_index, std::string_view what, Diagnostics& diagnostics)
+        : lexer_(lexer),
+          source_(source),
+          source_index_(source_index),
+          what_(what),
+          diagnostics_(diagnostics) {}
 
     std::optional<ValueText> read() {
         AssLexer ahead = lexer_;
@@ -192,7 +215,9 @@ class ValueLexer {
             case TokenKind::End:
             case TokenKind::Open:
             case TokenKind::Close:
-                diagnostics_.error(Code::AssSyntax, "parameter \"" + std::string(what_) + "\" has no value", name_or(token));
+                diagnostics_.error(Code::AssSyntax,
+                                   "parameter \"" + std::string(what_) + "\" has no value",
+                                   name_or(token));
                 return std::nullopt;
             case TokenKind::String: return strings(value) ? std::optional(value) : std::nullopt;
             case TokenKind::Word: break;
@@ -211,19 +236,27 @@ class ValueLexer {
     }
 
   private:
-    [[nodiscard]] SourceSpan at(std::size_t offset, std::size_t length) const { return {source_, offset, length}; }
+    [[nodiscard]] SourceSpan at(std::size_t offset, std::size_t length) const {
+        return {source_, offset, length};
+    }
     /// The parameter's name if it lies in this text; a value that is being edited stands alone.
     [[nodiscard]] SourceSpan name_or(const Token& token) const {
         const std::string_view text = lexer_.text();
         const std::less_equal<const char*> before;
-        const bool inside = before(text.data(), what_.data()) && before(what_.data() + what_.size(), text.data() + text.size());
-        return inside ? at(static_cast<std::size_t>(what_.data() - text.data()), what_.size()) : at(token.offset, token.length);
+        const bool inside = before(text.data(), what_.data()) &&
+                            before(what_.data() + what_.size(), text.data() + text.size());
+        return inside ? at(static_cast<std::size_t>(what_.data() - text.data()), what_.size())
+                      : at(token.offset, token.length);
     }
-    void finish(ValueText& value, std::size_t end) const { value.range.length = end - value.range.offset; }
+    void finish(ValueText& value, std::size_t end) const {
+        value.range.length = end - value.range.offset;
+    }
 
     /// A whole number: names may begin with digits ("0test"), and parameters may be called "info".
     static bool starts_number(std::string_view word) {
-        if ((class_of(word[0]) & kNumberStart) == 0 && word[0] != 'i' && word[0] != 'I' && word[0] != 'n' && word[0] != 'N') return false;
+        if ((class_of(word[0]) & kNumberStart) == 0 && word[0] != 'i' && word[0] != 'I' &&
+            word[0] != 'n' && word[0] != 'N')
+            return false;
         return parse_float(word).has_value();
     }
 
@@ -242,8 +275,9 @@ class ValueLexer {
 
     /// Goes on at the line after the quote: what follows is more likely to be parameters than text.
     void unclosed(const Token& token) {
-        diagnostics_.error(Code::AssUnclosed, "the string of \"" + std::string(what_) + "\" does not end", at(token.offset, 1),
-                           "add the closing quote; if the file was cut off, write it again");
+        diagnostics_.error(
+            Code::AssUnclosed, "the string of \"" + std::string(what_) + "\" does not end",
+            at(token.offset, 1), "add the closing quote; if the file was cut off, write it again");
         const std::size_t newline = lexer_.text().find('\n', token.offset);
         lexer_.seek(newline == std::string_view::npos ? lexer_.text().size() : newline);
     }
@@ -261,7 +295,8 @@ class ValueLexer {
 
     static bool whole(std::string_view word, std::uint64_t& value) {
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (error == std::errc::result_out_of_range) value = std::numeric_limits<std::uint64_t>::max();
+        if (error == std::errc::result_out_of_range)
+            value = std::numeric_limits<std::uint64_t>::max();
         return error != std::errc::invalid_argument && end == word.data() + word.size();
     }
     static bool looks_like_type(std::string_view word) {
@@ -277,7 +312,8 @@ class ValueLexer {
         const Token n_token = ahead.next(), keys_token = ahead.next(), type_token = ahead.next();
         std::uint64_t n = 0, n_keys = 0;
         if (keys_token.kind != TokenKind::Word || type_token.kind != TokenKind::Word) return false;
-        if (!whole(lexer_.text(n_token), n) || !whole(lexer_.text(keys_token), n_keys)) return false;
+        if (!whole(lexer_.text(n_token), n) || !whole(lexer_.text(keys_token), n_keys))
+            return false;
         std::string_view type_name = lexer_.text(type_token);
         value.array.encoding = ArrayEncoding::Text;
         if (type_name.starts_with("b85") || type_name.starts_with("b64")) {
@@ -285,28 +321,40 @@ class ValueLexer {
             type_name.remove_prefix(3);
         }
         const std::optional<ParamType> type = parse_type(type_name);
-        const SourceSpan head = at(n_token.offset, type_token.offset + type_token.length - n_token.offset);
+        const SourceSpan head =
+            at(n_token.offset, type_token.offset + type_token.length - n_token.offset);
         const bool same_line = !keys_token.first_in_line && !type_token.first_in_line;
-        if (!type && !(same_line && (looks_like_type(type_name) || value.array.encoding != ArrayEncoding::Text))) return false;
+        if (!type && !(same_line && (looks_like_type(type_name) ||
+                                     value.array.encoding != ArrayEncoding::Text)))
+            return false;
         is_head = true;
         lexer_ = ahead;
-        const bool packed_text = type && value.array.encoding != ArrayEncoding::Text && (*type == ParamType::String || *type == ParamType::Node || *type == ParamType::Enum);
+        const bool packed_text =
+            type && value.array.encoding != ArrayEncoding::Text &&
+            (*type == ParamType::String || *type == ParamType::Node || *type == ParamType::Enum);
         if (!type || packed_text) {
-            diagnostics_.error(Code::AssSyntax, "\"" + std::string(lexer_.text(type_token)) + "\" is no array type", at(type_token.offset, type_token.length),
-                               "types are BOOL BYTE INT UINT FLOAT RGB RGBA VECTOR VECTOR2 MATRIX, also with b85 or b64 before, and STRING NODE ENUM");
+            diagnostics_.error(Code::AssSyntax,
+                               "\"" + std::string(lexer_.text(type_token)) + "\" is no array type",
+                               at(type_token.offset, type_token.length),
+                               "types are BOOL BYTE INT UINT FLOAT RGB RGBA VECTOR VECTOR2 "
+                               "MATRIX, also with b85 or b64 before, and STRING NODE ENUM");
             skip_data();
             return false;
         }
         constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
         if (n_keys == 0 && n > 0) {
-            diagnostics_.error(Code::ArrayCount, "array \"" + std::string(what_) + "\" has " + std::to_string(n) + " elements but 0 motion keys", head, "write 1 for an array without motion");
+            diagnostics_.error(Code::ArrayCount,
+                               "array \"" + std::string(what_) + "\" has " + std::to_string(n) +
+                                   " elements but 0 motion keys",
+                               head, "write 1 for an array without motion");
             return false;
         }
         if (n == 0) n_keys = 1;
         // More than a file can hold: let the count fail, not the arithmetic.
         value.array.n = static_cast<std::uint32_t>(std::min(n, kMax));
         value.array.n_keys = static_cast<std::uint32_t>(std::min(n_keys, kMax));
-        n_elements_ = n > kMax || n_keys > kMax ? std::numeric_limits<std::uint64_t>::max() / 64 : n * n_keys;
+        n_elements_ = n > kMax || n_keys > kMax ? std::numeric_limits<std::uint64_t>::max() / 64
+                                                : n * n_keys;
         n_elements_ = std::min(n_elements_, std::numeric_limits<std::uint64_t>::max() / 64);
         value.array.type = *type;
         value.array.data_offset = type_token.offset + type_token.length;
@@ -335,8 +383,11 @@ class ValueLexer {
     void too_short(std::uint64_t n_found) {
         const bool at_end = lexer_.peek() == '\0' && lexer_.position() == lexer_.text().size();
         diagnostics_.error(Code::ArrayCount,
-                           "array \"" + std::string(what_) + "\" has " + std::to_string(n_found) + " elements, but its head says " +
-                               (n_elements_ < std::numeric_limits<std::uint64_t>::max() / 64 ? std::to_string(n_elements_) : "more than 4294967295"),
+                           "array \"" + std::string(what_) + "\" has " + std::to_string(n_found) +
+                               " elements, but its head says " +
+                               (n_elements_ < std::numeric_limits<std::uint64_t>::max() / 64
+                                    ? std::to_string(n_elements_)
+                                    : "more than 4294967295"),
                            head_, at_end ? "the file ends here: it may be cut off" : "");
     }
 
@@ -347,15 +398,20 @@ class ValueLexer {
         const char* const last = text.data() + text.size();
         std::uint64_t n = 0;
         while (n < limit) {
-            while (p != last && is_ass_blank(*p)) ++p;
+            while (p != last && is_ass_blank(*p))
+                ++p;
             if (p == last) break;
             if (*p == '#') {
-                while (p != last && *p != '\n') ++p;
+                while (p != last && *p != '\n')
+                    ++p;
                 continue;
             }
             const char* token = p;
-            while (p != last && (class_of(*p) & kDelimiter) == 0) ++p;
-            const bool number = p != token && ((class_of(*token) & kNumberStart) != 0 || parse_float({token, static_cast<std::size_t>(p - token)}));
+            while (p != last && (class_of(*p) & kDelimiter) == 0)
+                ++p;
+            const bool number =
+                p != token && ((class_of(*token) & kNumberStart) != 0 ||
+                               parse_float({token, static_cast<std::size_t>(p - token)}));
             if (!number) {
                 p = token;
                 break;
@@ -363,7 +419,8 @@ class ValueLexer {
             ++n;
             end = static_cast<std::size_t>(p - text.data());
         }
-        lexer_.seek(n == limit ? std::max(end, lexer_.position()) : static_cast<std::size_t>(p - text.data()));
+        lexer_.seek(n == limit ? std::max(end, lexer_.position())
+                               : static_cast<std::size_t>(p - text.data()));
         return n;
     }
 
@@ -376,7 +433,9 @@ class ValueLexer {
             const Token token = ahead.next();
             const bool null = token.kind == TokenKind::Word && lexer_.text(token) == "NULL";
             if (!null) (token.kind == TokenKind::String ? quoted : bare) = true;
-            if ((token.kind != TokenKind::String && token.kind != TokenKind::Word) || (quoted && bare)) break;
+            if ((token.kind != TokenKind::String && token.kind != TokenKind::Word) ||
+                (quoted && bare))
+                break;
             lexer_ = ahead;
             if (!token.closed) {
                 unclosed(token);
@@ -404,7 +463,8 @@ class ValueLexer {
     bool packed_array(ValueText& value) {
         const std::size_t per_element = component_count(value.array.type);
         const bool b85 = value.array.encoding == ArrayEncoding::B85;
-        const auto scan = (b85 ? scan_b85 : scan_b64)(lexer_.text(), value.array.data_offset, value.array.type, n_elements_ * per_element);
+        const auto scan = (b85 ? scan_b85 : scan_b64)(lexer_.text(), value.array.data_offset,
+                                                      value.array.type, n_elements_ * per_element);
         lexer_.seek(scan.end);
         finish(value, scan.end);
         const std::string name = "\"" + std::string(what_) + "\"";
@@ -412,14 +472,23 @@ class ValueLexer {
             case PackedError::None: return true;
             case PackedError::TooShort: too_short(scan.n_found / per_element); return false;
             case PackedError::BadLetter:
-                diagnostics_.error(Code::ArrayData, "the data of array " + name + " begins with \"" + lexer_.text()[scan.end] + "\", which is no packing that is known", at(scan.end, 1),
-                                   "b85INT and b85UINT data begin with B, C, E or F");
+                diagnostics_.error(
+                    Code::ArrayData,
+                    "the data of array " + name + " begins with \"" + lexer_.text()[scan.end] +
+                        "\", which is no packing that is known",
+                    at(scan.end, 1), "b85INT and b85UINT data begin with B, C, E or F");
                 break;
             case PackedError::BadCharacter:
-                diagnostics_.error(Code::ArrayData, "the b85 data of array " + name + " has five characters that stand for no word", at(scan.end - std::min<std::size_t>(scan.end, 5), 5));
+                diagnostics_.error(Code::ArrayData,
+                                   "the b85 data of array " + name +
+                                       " has five characters that stand for no word",
+                                   at(scan.end - std::min<std::size_t>(scan.end, 5), 5));
                 break;
             case PackedError::RunTooLong:
-                diagnostics_.error(Code::ArrayData, "a run in the b85 data of array " + name + " goes on after its last element", at(scan.end - std::min<std::size_t>(scan.end, 5), 5));
+                diagnostics_.error(
+                    Code::ArrayData,
+                    "a run in the b85 data of array " + name + " goes on after its last element",
+                    at(scan.end - std::min<std::size_t>(scan.end, 5), 5));
                 break;
         }
         // Where damaged data ends is unknown; what comes next in line with a name is the best guess.
@@ -433,7 +502,8 @@ class ValueLexer {
             AssLexer ahead = lexer_;
             const Token token = ahead.next();
             if (token.kind != TokenKind::Word) return;  // also at the end
-            const bool name = token.first_in_line && parse_param_name(lexer_.text(token)) && token.length < 40;
+            const bool name =
+                token.first_in_line && parse_param_name(lexer_.text(token)) && token.length < 40;
             AssLexer second = ahead;
             if (name && !second.next().first_in_line) return;
             lexer_ = ahead;
@@ -451,7 +521,10 @@ class ValueLexer {
 
 }  // namespace
 
-std::optional<ValueText> lex_value(AssLexer& lexer, const std::shared_ptr<const SourceText>& source, std::uint32_t source_index, std::string_view what, Diagnostics& diagnostics) {
+std::optional<ValueText> lex_value(AssLexer& lexer,
+                                   const std::shared_ptr<const SourceText>& source,
+                                   std::uint32_t source_index, std::string_view what,
+                                   Diagnostics& diagnostics) {
     return ValueLexer(lexer, source, source_index, what, diagnostics).read();
 }
 

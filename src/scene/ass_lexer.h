@@ -21,10 +21,10 @@ enum class TokenKind : std::uint8_t { End, Open, Close, String, Word };
 
 struct Token {
     TokenKind kind = TokenKind::End;
-    std::size_t offset = 0;    ///< first byte
-    std::size_t length = 0;    ///< bytes; of a string: with its quotes
-    bool first_in_line = false;///< only blanks stand before it
-    bool closed = true;        ///< of a string: it has its closing quote
+    std::size_t offset = 0;      ///< first byte
+    std::size_t length = 0;      ///< bytes; of a string: with its quotes
+    bool first_in_line = false;  ///< only blanks stand before it
+    bool closed = true;          ///< of a string: it has its closing quote
 };
 
 /// Splits text into tokens; blanks and comments are skipped. Copying one is a look-ahead.
@@ -37,7 +37,9 @@ class AssLexer {
     [[nodiscard]] std::size_t position() const { return at_; }
     void seek(std::size_t at) { at_ = at; }
     [[nodiscard]] std::string_view text() const { return text_; }
-    [[nodiscard]] std::string_view text(const Token& token) const { return text_.substr(token.offset, token.length); }
+    [[nodiscard]] std::string_view text(const Token& token) const {
+        return text_.substr(token.offset, token.length);
+    }
 
   private:
     std::string_view text_;
@@ -77,7 +79,9 @@ struct ParamName {
 /// what          the parameter's name, for messages
 /// returns       nothing with an error reported if there is no value or an array is damaged; the lexer then stands after
 ///               what could be read
-[[nodiscard]] std::optional<ValueText> lex_value(AssLexer& lexer, const std::shared_ptr<const SourceText>& source, std::uint32_t source_index, std::string_view what,
+[[nodiscard]] std::optional<ValueText> lex_value(AssLexer& lexer,
+                                                 const std::shared_ptr<const SourceText>& source,
+                                                 std::uint32_t source_index, std::string_view what,
                                                  Diagnostics& diagnostics);
 
 }  // namespace lightsieve

@@ -23,7 +23,9 @@ TEST(Numbers, FloatsInEverySpelling) {
     EXPECT_EQ(parse_float("-1.#INF"), -HUGE_VALF);
     EXPECT_TRUE(std::isnan(*parse_float("1.#QNAN")));
     EXPECT_TRUE(std::isnan(*parse_float("-nan")));
-    for (const char* no : {"", "-", "+", ".", "1x", "0test", "1.2.3", "e5", "+-1", "infx", "name", "0x10", "1,5"}) EXPECT_FALSE(parse_float(no)) << no;
+    for (const char* no :
+         {"", "-", "+", ".", "1x", "0test", "1.2.3", "e5", "+-1", "infx", "name", "0x10", "1,5"})
+        EXPECT_FALSE(parse_float(no)) << no;
 }
 
 TEST(Numbers, ShortestTextReadsBackToTheSameBits) {
@@ -45,7 +47,8 @@ TEST(Numbers, Integers) {
     EXPECT_EQ(parse_integer("+7"), 7);
     EXPECT_EQ(parse_integer("4.0"), 4);
     EXPECT_EQ(parse_integer("1e3"), 1000);
-    for (const char* no : {"", "4.5", "x", "1e30", "nan", "inf", "99999999999999999999999"}) EXPECT_FALSE(parse_integer(no)) << no;
+    for (const char* no : {"", "4.5", "x", "1e30", "nan", "inf", "99999999999999999999999"})
+        EXPECT_FALSE(parse_integer(no)) << no;
 }
 
 TEST(Names, Suffixes) {
@@ -57,7 +60,9 @@ TEST(Names, Suffixes) {
     EXPECT_EQ(parse_param_name("input.z")->component, 2);
     EXPECT_EQ(parse_param_name("input.a")->component, 3);
     EXPECT_EQ(parse_param_name("foo.bar")->base, "foo.bar");
-    for (const char* no : {"", "3", "-x", "[1]", "a[", "a[]", "a[x]", "a[-1]", "a[1", "a[1][2]", "a[99999999999999999999]", "a\x01"}) EXPECT_FALSE(parse_param_name(no)) << no;
+    for (const char* no : {"", "3", "-x", "[1]", "a[", "a[]", "a[x]", "a[-1]", "a[1", "a[1][2]",
+                           "a[99999999999999999999]", "a\x01"})
+        EXPECT_FALSE(parse_param_name(no)) << no;
 }
 
 TEST(Strings, Escapes) {

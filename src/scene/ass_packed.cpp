@@ -13,7 +13,8 @@ constexpr std::uint32_t kOneBits = 0x3f800000;
 
 constexpr std::array<std::uint8_t, 256> make_b85_digits() {
     std::array<std::uint8_t, 256> table{};
-    for (std::size_t c = 0; c < 256; ++c) table[c] = c >= 36 && c <= 120 ? static_cast<std::uint8_t>(c - 36) : kNoDigit;
+    for (std::size_t c = 0; c < 256; ++c)
+        table[c] = c >= 36 && c <= 120 ? static_cast<std::uint8_t>(c - 36) : kNoDigit;
     return table;
 }
 constexpr std::array<std::uint8_t, 256> kB85 = make_b85_digits();
@@ -25,7 +26,8 @@ constexpr std::array<std::uint8_t, 256> make_b64_digits() {
         table['A' + std::size_t{i}] = i;
         table['a' + std::size_t{i}] = static_cast<std::uint8_t>(26 + i);
     }
-    for (std::uint8_t i = 0; i < 10; ++i) table['0' + std::size_t{i}] = static_cast<std::uint8_t>(52 + i);
+    for (std::uint8_t i = 0; i < 10; ++i)
+        table['0' + std::size_t{i}] = static_cast<std::uint8_t>(52 + i);
     table['+'] = 62;
     table['/'] = 63;
     return table;
@@ -38,20 +40,23 @@ std::uint8_t b85_digit(char c) { return kB85[static_cast<unsigned char>(c)]; }
 /// Reads words one after the other; the same code scans and decodes, so that both agree on where data ends.
 class B85Reader {
   public:
-    explicit B85Reader(std::string_view text) : p_(text.data()), begin_(text.data()), end_(text.data() + text.size()) {}
+    explicit B85Reader(std::string_view text)
+        : p_(text.data()), begin_(text.data()), end_(text.data() + text.size()) {}
 
     [[nodiscard]] std::size_t position() const { return static_cast<std::size_t>(p_ - begin_); }
 
     /// The next character that is not blank, or 0.
     char peek() {
-        while (p_ != end_ && is_blank(*p_)) ++p_;
+        while (p_ != end_ && is_blank(*p_))
+            ++p_;
         return p_ == end_ ? '\0' : *p_;
     }
     void skip() { ++p_; }
 
     /// One word written without a run.
     PackedError word(std::uint32_t& out) {
-        if (end_ - p_ >= 5 && five_digits(out)) return overflow_ ? PackedError::BadCharacter : PackedError::None;
+        if (end_ - p_ >= 5 && five_digits(out))
+            return overflow_ ? PackedError::BadCharacter : PackedError::None;
         const char c = peek();
         if (c == 'z' || c == 'y') {
             out = c == 'z' ? 0 : kOneBits;
@@ -97,9 +102,11 @@ class B85Reader {
   private:
     /// Fast path: five digits without blanks between them.
     bool five_digits(std::uint32_t& out) {
-        const std::uint32_t d0 = b85_digit(p_[0]), d1 = b85_digit(p_[1]), d2 = b85_digit(p_[2]), d3 = b85_digit(p_[3]), d4 = b85_digit(p_[4]);
+        const std::uint32_t d0 = b85_digit(p_[0]), d1 = b85_digit(p_[1]), d2 = b85_digit(p_[2]),
+                            d3 = b85_digit(p_[3]), d4 = b85_digit(p_[4]);
         if (((d0 | d1 | d2 | d3 | d4) & kNoDigit) != 0) return false;
-        const std::uint64_t value = std::uint64_t{(d0 * 85 + d1) * 85 + d2} * 7225 + (d3 * 85 + d4);
+        const std::uint64_t value =
+            std::uint64_t{(d0 * 85 + d1) * 85 + d2} * 7225 + (d3 * 85 + d4);
         overflow_ = value > 0xffffffffU;
         out = static_cast<std::uint32_t>(value);
         p_ += 5;
@@ -114,9 +121,9 @@ class B85Reader {
 
 /// How the numbers of an array lie in words.
 struct Packing {
-    std::uint32_t bits = 32;           ///< of one number
-    std::uint32_t per_word = 1;        ///< numbers in one word
-    bool letter = false;               ///< whether a packing letter comes first
+    std::uint32_t bits = 32;     ///< of one number
+    std::uint32_t per_word = 1;  ///< numbers in one word
+    bool letter = false;         ///< whether a packing letter comes first
     /// Whether the last, partial word is written as a tail of bytes.
     [[nodiscard]] bool has_tail() const { return bits == 8 || bits == 16; }
 };
@@ -147,7 +154,8 @@ struct Extent {
     int tail_bytes = 0;
 };
 Extent extent_of(const Packing& packing, std::uint64_t n) {
-    if (!packing.has_tail()) return {n / packing.per_word + (n % packing.per_word != 0 ? 1 : 0), 0};
+    if (!packing.has_tail())
+        return {n / packing.per_word + (n % packing.per_word != 0 ? 1 : 0), 0};
     return {n / packing.per_word, static_cast<int>(n % packing.per_word * packing.bits / 8)};
 }
 
@@ -176,20 +184,23 @@ bool is_float_type(ParamType type) {
     }
 }
 
-PackedScan scan_b85(std::string_view text, std::size_t begin, ParamType type, std::uint64_t n_numbers) {
+PackedScan scan_b85(std::string_view text, std::size_t begin, ParamType type,
+                    std::uint64_t n_numbers) {
     B85Reader reader(text.substr(begin));
     PackedScan scan;
     scan.end = begin;
     if (n_numbers == 0) {
         // An empty array may still have its packing letter.
         Packing unused;
-        if (has_letter(type) && find_packing(type, reader.peek(), unused)) scan.end = begin + reader.position() + 1;
+        if (has_letter(type) && find_packing(type, reader.peek(), unused))
+            scan.end = begin + reader.position() + 1;
         return scan;
     }
     Packing packing;
     const char letter = has_letter(type) ? reader.peek() : '\0';
     if (!find_packing(type, letter, packing)) {
-        scan.error = letter == '\0' || b85_digit(letter) == kNoDigit ? PackedError::TooShort : PackedError::BadLetter;
+        scan.error = letter == '\0' || b85_digit(letter) == kNoDigit ? PackedError::TooShort
+                                                                     : PackedError::BadLetter;
         scan.end = begin + reader.position();
         return scan;
     }
@@ -210,10 +221,14 @@ PackedScan scan_b85(std::string_view text, std::size_t begin, ParamType type, st
     if (scan.error == PackedError::None && extent.tail_bytes > 0) {
         std::uint64_t value = 0;
         std::uint32_t word = 0;
-        if (!reader.digits(extent.tail_bytes + 1, value)) scan.error = PackedError::TooShort;
-        else scan.error = B85Reader::narrow(value, word);
+        if (!reader.digits(extent.tail_bytes + 1, value))
+            scan.error = PackedError::TooShort;
+        else
+            scan.error = B85Reader::narrow(value, word);
     }
-    scan.n_found = scan.error == PackedError::None ? n_numbers : std::min(n_numbers, n_words * packing.per_word);
+    scan.n_found = scan.error == PackedError::None
+                       ? n_numbers
+                       : std::min(n_numbers, n_words * packing.per_word);
     scan.end = begin + reader.position();
     return scan;
 }
@@ -238,24 +253,32 @@ void decode_b85(std::string_view data, ParamType type, std::span<std::uint32_t> 
             continue;
         }
         for (; count > 0; --count)
-            for (std::uint32_t k = 0; k < packing.per_word && at < out.size(); ++k) out[at++] = word >> (k * packing.bits) & mask;
+            for (std::uint32_t k = 0; k < packing.per_word && at < out.size(); ++k)
+                out[at++] = word >> (k * packing.bits) & mask;
     }
     if (extent.tail_bytes == 0) return;
     std::uint64_t tail = 0;
     if (!reader.digits(extent.tail_bytes + 1, tail)) return;
-    const auto byte = [&](int i) { return static_cast<std::uint32_t>(tail >> (24 - 8 * i)) & 0xffU; };
-    if (packing.bits == 16) out[at] = byte(0) | byte(1) << 8U;
+    const auto byte = [&](int i) {
+        return static_cast<std::uint32_t>(tail >> (24 - 8 * i)) & 0xffU;
+    };
+    if (packing.bits == 16)
+        out[at] = byte(0) | byte(1) << 8U;
     else
-        for (int i = 0; i < extent.tail_bytes; ++i) out[at++] = byte(i);
+        for (int i = 0; i < extent.tail_bytes; ++i)
+            out[at++] = byte(i);
 }
 
 namespace {
 
-std::size_t b64_size(ParamType type) { return type == ParamType::Byte || type == ParamType::Bool ? 1 : 4; }
+std::size_t b64_size(ParamType type) {
+    return type == ParamType::Byte || type == ParamType::Bool ? 1 : 4;
+}
 
 }  // namespace
 
-PackedScan scan_b64(std::string_view text, std::size_t begin, ParamType type, std::uint64_t n_numbers) {
+PackedScan scan_b64(std::string_view text, std::size_t begin, ParamType type,
+                    std::uint64_t n_numbers) {
     PackedScan scan;
     const std::uint64_t n_bytes = n_numbers * b64_size(type);
     const std::uint64_t n_chars = n_bytes / 3 * 4 + (n_bytes % 3 == 0 ? 0 : n_bytes % 3 + 1);
@@ -268,7 +291,8 @@ PackedScan scan_b64(std::string_view text, std::size_t begin, ParamType type, st
         ++found;
     }
     // Padding is not written by Arnold, but harmless.
-    while (found == n_chars && n_chars % 4 != 0 && at < text.size() && text[at] == '=') ++at;
+    while (found == n_chars && n_chars % 4 != 0 && at < text.size() && text[at] == '=')
+        ++at;
     if (n_chars > 0) scan.end = at;
     scan.n_found = found == n_chars ? n_numbers : found * 3 / 4 / b64_size(type);
     if (found < n_chars) scan.error = PackedError::TooShort;

@@ -25,24 +25,27 @@ namespace lightsieve {
 /// Why packed data cannot be read.
 enum class PackedError : std::uint8_t {
     None,
-    TooShort,     ///< the data ends before all values are there
-    BadLetter,    ///< INT or UINT data begins with another letter than B, C, E, F
-    BadCharacter, ///< base 64 or 85 characters that stand for no word
-    RunTooLong,   ///< a run repeats past the last value
+    TooShort,      ///< the data ends before all values are there
+    BadLetter,     ///< INT or UINT data begins with another letter than B, C, E, F
+    BadCharacter,  ///< base 64 or 85 characters that stand for no word
+    RunTooLong,    ///< a run repeats past the last value
 };
 
 struct PackedScan {
     PackedError error = PackedError::None;
-    std::size_t end = 0;          ///< offset after the last character of the data, or of the place of the error
-    std::uint64_t n_found = 0;    ///< numbers (not elements) that are there; exact for TooShort
+    std::size_t end =
+        0;  ///< offset after the last character of the data, or of the place of the error
+    std::uint64_t n_found = 0;  ///< numbers (not elements) that are there; exact for TooShort
 };
 
 /// Finds the end of packed data.
 ///
 /// begin      offset of the first character after the array's head
 /// n_numbers  elements * keys * component_count(type)
-[[nodiscard]] PackedScan scan_b85(std::string_view text, std::size_t begin, ParamType type, std::uint64_t n_numbers);
-[[nodiscard]] PackedScan scan_b64(std::string_view text, std::size_t begin, ParamType type, std::uint64_t n_numbers);
+[[nodiscard]] PackedScan scan_b85(std::string_view text, std::size_t begin, ParamType type,
+                                  std::uint64_t n_numbers);
+[[nodiscard]] PackedScan scan_b64(std::string_view text, std::size_t begin, ParamType type,
+                                  std::uint64_t n_numbers);
 
 /// Reads data that `scan_b85` or `scan_b64` accepted for out.size() numbers. Each number takes one word: the bits of a float,
 /// or an integer.

@@ -13,21 +13,27 @@ namespace {
 
 std::string digits(std::uint64_t value, std::size_t n) {
     std::string out(5, ' ');
-    for (std::size_t i = 5; i-- > 0; value /= 85) out[i] = static_cast<char>(36 + value % 85);
+    for (std::size_t i = 5; i-- > 0; value /= 85)
+        out[i] = static_cast<char>(36 + value % 85);
     return out.substr(0, n);
 }
 
-std::string word(std::uint32_t value) { return value == 0 ? "z" : value == 0x3f800000 ? "y" : digits(value, 5); }
+std::string word(std::uint32_t value) {
+    return value == 0 ? "z" : value == 0x3f800000 ? "y" : digits(value, 5);
+}
 
 /// Words with runs of three and more written as runs.
 std::string words(const std::vector<std::uint32_t>& values) {
     std::string out;
     for (std::size_t i = 0; i < values.size();) {
         std::size_t n = 1;
-        while (i + n < values.size() && values[i + n] == values[i]) ++n;
-        if (n >= 3) out += "!" + word(values[i]) + word(static_cast<std::uint32_t>(n));
+        while (i + n < values.size() && values[i + n] == values[i])
+            ++n;
+        if (n >= 3)
+            out += "!" + word(values[i]) + word(static_cast<std::uint32_t>(n));
         else
-            for (std::size_t k = 0; k < n; ++k) out += word(values[i]);
+            for (std::size_t k = 0; k < n; ++k)
+                out += word(values[i]);
         i += n;
     }
     return out;
@@ -38,11 +44,13 @@ std::string bytes(const std::vector<std::uint8_t>& values) {
     std::vector<std::uint32_t> full;
     std::size_t i = 0;
     for (; i + 4 <= values.size(); i += 4)
-        full.push_back(values[i] | std::uint32_t{values[i + 1]} << 8U | std::uint32_t{values[i + 2]} << 16U | std::uint32_t{values[i + 3]} << 24U);
+        full.push_back(values[i] | std::uint32_t{values[i + 1]} << 8U |
+                       std::uint32_t{values[i + 2]} << 16U | std::uint32_t{values[i + 3]} << 24U);
     std::string out = words(full);
     const std::size_t rest = values.size() - i;
     std::uint32_t top = 0;
-    for (std::size_t k = 0; k < rest; ++k) top |= std::uint32_t{values[i + k]} << (24 - 8 * k);
+    for (std::size_t k = 0; k < rest; ++k)
+        top |= std::uint32_t{values[i + k]} << (24 - 8 * k);
     return rest == 0 ? out : out + digits(top, rest + 1);
 }
 
@@ -50,7 +58,8 @@ std::string packed(char letter, const std::vector<std::uint32_t>& values) {
     std::vector<std::uint8_t> raw;
     switch (letter) {
         case 'B':
-            for (const std::uint32_t v : values) raw.push_back(static_cast<std::uint8_t>(v));
+            for (const std::uint32_t v : values)
+                raw.push_back(static_cast<std::uint8_t>(v));
             return letter + bytes(raw);
         case 'C':
             for (const std::uint32_t v : values) {
@@ -60,7 +69,8 @@ std::string packed(char letter, const std::vector<std::uint32_t>& values) {
             return letter + bytes(raw);
         case 'F': {
             std::vector<std::uint32_t> full((values.size() + 2) / 3);
-            for (std::size_t i = 0; i < values.size(); ++i) full[i / 3] |= values[i] << (i % 3 * 10);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                full[i / 3] |= values[i] << (i % 3 * 10);
             return letter + words(full);
         }
         default: return letter + words(values);
@@ -79,11 +89,15 @@ std::vector<std::uint32_t> decoded(const std::string& text, ParamType type, std:
 TEST(B85, EveryLetterAndTail) {
     std::mt19937 random(7);
     for (const char letter : {'B', 'C', 'E', 'F'}) {
-        const std::uint32_t mask = letter == 'B' ? 0xff : letter == 'C' ? 0xffff : letter == 'F' ? 0x3ff : 0xffffffff;
+        const std::uint32_t mask = letter == 'B'   ? 0xff
+                                   : letter == 'C' ? 0xffff
+                                   : letter == 'F' ? 0x3ff
+                                                   : 0xffffffff;
         for (std::size_t n = 1; n <= 40; ++n) {
             std::vector<std::uint32_t> values(n);
             // Repeated values in places, so that runs occur.
-            for (std::uint32_t& v : values) v = (random() & 3U) == 0 ? static_cast<std::uint32_t>(random()) & mask : 0x2a;
+            for (std::uint32_t& v : values)
+                v = (random() & 3U) == 0 ? static_cast<std::uint32_t>(random()) & mask : 0x2a;
             EXPECT_EQ(decoded(packed(letter, values), ParamType::UInt, n), values) << letter << n;
         }
     }
@@ -91,10 +105,13 @@ TEST(B85, EveryLetterAndTail) {
 
 TEST(B85, BytesAndFloats) {
     std::vector<std::uint8_t> raw;
-    for (int i = 0; i < 11; ++i) raw.push_back(static_cast<std::uint8_t>(i * 25));
-    EXPECT_EQ(decoded(bytes(raw), ParamType::Byte, 11), std::vector<std::uint32_t>(raw.begin(), raw.end()));
+    for (int i = 0; i < 11; ++i)
+        raw.push_back(static_cast<std::uint8_t>(i * 25));
+    EXPECT_EQ(decoded(bytes(raw), ParamType::Byte, 11),
+              std::vector<std::uint32_t>(raw.begin(), raw.end()));
     std::vector<std::uint32_t> floats;
-    for (const float f : {0.0F, 1.0F, -0.0F, 1e-40F, 3e38F, 0.1F}) floats.push_back(std::bit_cast<std::uint32_t>(f));
+    for (const float f : {0.0F, 1.0F, -0.0F, 1e-40F, 3e38F, 0.1F})
+        floats.push_back(std::bit_cast<std::uint32_t>(f));
     EXPECT_EQ(decoded(words(floats), ParamType::Vector, 6), floats);
 }
 
@@ -102,7 +119,8 @@ TEST(B85, BlanksMayStandAnywhere) {
     const std::vector<std::uint32_t> values{70000, 0, 0, 0, 0, 5, 6, 7};
     const std::string text = packed('E', values);
     std::string spaced;
-    for (const char c : text) spaced += std::string(1, c) + " \r\n\t";
+    for (const char c : text)
+        spaced += std::string(1, c) + " \r\n\t";
     const PackedScan scan = scan_b85(spaced, 0, ParamType::UInt, values.size());
     EXPECT_EQ(scan.error, PackedError::None);
     EXPECT_EQ(scan.end, spaced.size() - 4);
@@ -124,7 +142,8 @@ TEST(B85, Damage) {
     EXPECT_EQ(scan_b85("Q$$$$$", 0, ParamType::UInt, 1).error, PackedError::BadLetter);
     // 85^5 - 1 is more than 32 bits.
     EXPECT_EQ(scan_b85("xxxxx", 0, ParamType::Float, 1).error, PackedError::BadCharacter);
-    EXPECT_EQ(scan_b85("!z" + digits(5, 5), 0, ParamType::Float, 4).error, PackedError::RunTooLong);
+    EXPECT_EQ(scan_b85("!z" + digits(5, 5), 0, ParamType::Float, 4).error,
+              PackedError::RunTooLong);
     EXPECT_EQ(scan_b85("!z" + digits(4, 5), 0, ParamType::Float, 4).error, PackedError::None);
     EXPECT_EQ(scan_b85("!z", 0, ParamType::Float, 4).error, PackedError::TooShort);
     // A run of nothing makes no progress but ends with the text.
@@ -132,8 +151,10 @@ TEST(B85, Damage) {
 }
 
 TEST(B85, HugeCountsCostNothing) {
-    EXPECT_EQ(scan_b85("yyy", 0, ParamType::Vector, std::uint64_t{1} << 60U).error, PackedError::TooShort);
-    EXPECT_EQ(scan_b64("AAAA", 0, ParamType::Float, std::uint64_t{1} << 60U).error, PackedError::TooShort);
+    EXPECT_EQ(scan_b85("yyy", 0, ParamType::Vector, std::uint64_t{1} << 60U).error,
+              PackedError::TooShort);
+    EXPECT_EQ(scan_b64("AAAA", 0, ParamType::Float, std::uint64_t{1} << 60U).error,
+              PackedError::TooShort);
 }
 
 TEST(B64, ValuesAndEnd) {

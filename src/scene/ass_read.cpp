@@ -18,7 +18,8 @@ constexpr std::size_t kBinaryProbe = 65536;
 /// Turns texts into a document's blocks. Not recursive but for includes, whose depth is limited.
 class AssReader {
   public:
-    AssReader(Document& document, const ReadFile& read_file, Diagnostics& diagnostics) : document_(document), read_file_(read_file), diagnostics_(diagnostics) {}
+    AssReader(Document& document, const ReadFile& read_file, Diagnostics& diagnostics)
+        : document_(document), read_file_(read_file), diagnostics_(diagnostics) {}
 
     void read(std::string name, std::string text) {
         document_.sources_.clear();
@@ -32,12 +33,18 @@ class AssReader {
         std::shared_ptr<const SourceText> source;
         std::uint32_t index;
         AssLexer lexer;
-        [[nodiscard]] SourceSpan at(const Token& token) const { return {source, token.offset, token.length}; }
-        [[nodiscard]] TextRange range(const Token& token) const { return {index, token.offset, token.length}; }
+        [[nodiscard]] SourceSpan at(const Token& token) const {
+            return {source, token.offset, token.length};
+        }
+        [[nodiscard]] TextRange range(const Token& token) const {
+            return {index, token.offset, token.length};
+        }
         [[nodiscard]] std::string_view text(const Token& token) const { return lexer.text(token); }
     };
 
-    [[nodiscard]] bool gave_up() const { return diagnostics_.n_errors() >= first_error_ + kMaxReadErrors; }
+    [[nodiscard]] bool gave_up() const {
+        return diagnostics_.n_errors() >= first_error_ + kMaxReadErrors;
+    }
 
     /// Reads all statements of one text.
     void file(std::uint32_t index) {
@@ -45,14 +52,19 @@ class AssReader {
         if (!looks_like_text(text)) return;
         if (text.lexer.text().starts_with("\xEF\xBB\xBF")) text.lexer.seek(3);
         open_files_.push_back(normal(text.source->name));
-        for (Token token = text.lexer.next(); token.kind != TokenKind::End && !gave_up(); token = text.lexer.next()) statement(text, token);
+        for (Token token = text.lexer.next(); token.kind != TokenKind::End && !gave_up();
+             token = text.lexer.next())
+            statement(text, token);
         open_files_.pop_back();
     }
 
     bool looks_like_text(const Text& text) {
         const std::string_view bytes = text.lexer.text();
-        const bool binary = bytes.substr(0, kBinaryProbe).find('\0') != std::string_view::npos || bytes.starts_with("\x1f\x8b");
-        if (binary) diagnostics_.error(Code::FileFormat, "\"" + text.source->name + "\" is no text, so it is no .ass file");
+        const bool binary = bytes.substr(0, kBinaryProbe).find('\0') != std::string_view::npos ||
+                            bytes.starts_with("\x1f\x8b");
+        if (binary)
+            diagnostics_.error(Code::FileFormat,
+                               "\"" + text.source->name + "\" is no text, so it is no .ass file");
         return !binary;
     }
 
@@ -62,8 +74,14 @@ class AssReader {
             if (next == '{') return node(text, token);
             if (next == '"' && text.text(token) == "include") return include(text, token);
         }
-        const std::string shown = token.kind == TokenKind::Word ? "\"" + std::string(text.text(token).substr(0, 40)) + "\"" : token.kind == TokenKind::String ? "a string" : std::string("\"") + text.text(token)[0] + "\"";
-        diagnostics_.error(Code::AssSyntax, "a node type and \"{\" are expected, not " + shown, {text.source, token.offset, token.kind == TokenKind::String ? 1 : token.length});
+        const std::string shown = token.kind == TokenKind::Word
+                                      ? "\"" + std::string(text.text(token).substr(0, 40)) + "\""
+                                  : token.kind == TokenKind::String
+                                      ? "a string"
+                                      : std::string("\"") + text.text(token)[0] + "\"";
+        diagnostics_.error(
+            Code::AssSyntax, "a node type and \"{\" are expected, not " + shown,
+            {text.source, token.offset, token.kind == TokenKind::String ? 1 : token.length});
         find_node(text);
     }
 
@@ -72,16 +90,20 @@ class AssReader {
 
     /// The first word after the blanks at `at`; empty if a brace, a quote or the end comes first.
     static std::string_view word_after(std::string_view all, std::size_t at) {
-        while (at < all.size() && is_ass_blank(all[at])) ++at;
+        while (at < all.size() && is_ass_blank(all[at]))
+            ++at;
         std::size_t end = at;
-        while (end < all.size() && !is_ass_blank(all[end]) && all[end] != '{' && all[end] != '}' && all[end] != '"') ++end;
+        while (end < all.size() && !is_ass_blank(all[end]) && all[end] != '{' && all[end] != '}' &&
+               all[end] != '"')
+            ++end;
         return all.substr(at, end - at);
     }
 
     /// Recovery at file level: goes to the next line that begins with a word and is followed by "{".
     static void find_node(Text& text) {
         const std::string_view all = text.lexer.text();
-        for (std::size_t at = all.find('\n', text.lexer.position()); at != std::string_view::npos; at = all.find('\n', at)) {
+        for (std::size_t at = all.find('\n', text.lexer.position()); at != std::string_view::npos;
+             at = all.find('\n', at)) {
             const std::string_view word = word_after(all, at);
             const auto end = static_cast<std::size_t>(word.data() + word.size() - all.data());
             AssLexer ahead(all, end);
@@ -131,29 +153,38 @@ class AssReader {
                 text.lexer = before;
                 return before.position();
             }
-            if (token.kind == TokenKind::Word && text.text(token) == "declare") declare(text, token, block);
-            else if (token.kind == TokenKind::Word && parse_param_name(text.text(token))) param(text, token, block);
-            else no_param(text, token);
+            if (token.kind == TokenKind::Word && text.text(token) == "declare")
+                declare(text, token, block);
+            else if (token.kind == TokenKind::Word && parse_param_name(text.text(token)))
+                param(text, token, block);
+            else
+                no_param(text, token);
         }
         return text.lexer.position();
     }
 
     void unclosed_node(const Text& text, const Token& type, std::string hint) {
-        diagnostics_.error(Code::AssUnclosed, "node \"" + std::string(text.text(type)) + "\" does not end", text.at(type), std::move(hint));
+        diagnostics_.error(Code::AssUnclosed,
+                           "node \"" + std::string(text.text(type)) + "\" does not end",
+                           text.at(type), std::move(hint));
     }
 
     void no_param(Text& text, const Token& token) {
         const std::string_view shown = text.text(token).substr(0, 40);
         const bool quote = token.kind == TokenKind::String;
-        diagnostics_.error(Code::AssSyntax, quote ? "a parameter's name is expected, not a string" : "a parameter's name is expected, not \"" + std::string(shown) + "\"",
-                           {text.source, token.offset, quote ? 1 : token.length});
+        diagnostics_.error(
+            Code::AssSyntax,
+            quote ? "a parameter's name is expected, not a string"
+                  : "a parameter's name is expected, not \"" + std::string(shown) + "\"",
+            {text.source, token.offset, quote ? 1 : token.length});
         find_param(text);
     }
 
     void param(Text& text, const Token& token, NodeBlock& block) {
         const std::string_view written = text.text(token);
         const ParamName name = *parse_param_name(written);
-        const std::optional<ValueText> value = lex_value(text.lexer, text.source, text.index, written, diagnostics_);
+        const std::optional<ValueText> value =
+            lex_value(text.lexer, text.source, text.index, written, diagnostics_);
         if (!value) return;
         ParamText out;
         out.name = Name(name.base);
@@ -183,11 +214,20 @@ class AssReader {
             out.is_array = true;
             type = word();
         }
-        const auto found = std::find_if(kClassNames.begin(), kClassNames.end(), [&](UserDataClass c) { return user_class.kind == TokenKind::Word && class_text(c) == text.text(user_class); });
-        const std::optional<ParamType> parsed = type.kind == TokenKind::Word ? parse_type(text.text(type)) : std::nullopt;
-        const SourceSpan where{text.source, keyword.offset, type.offset + (type.kind == TokenKind::Word ? type.length : 0) - keyword.offset};
+        const auto found =
+            std::find_if(kClassNames.begin(), kClassNames.end(), [&](UserDataClass c) {
+                return user_class.kind == TokenKind::Word &&
+                       class_text(c) == text.text(user_class);
+            });
+        const std::optional<ParamType> parsed =
+            type.kind == TokenKind::Word ? parse_type(text.text(type)) : std::nullopt;
+        const SourceSpan where{
+            text.source, keyword.offset,
+            type.offset + (type.kind == TokenKind::Word ? type.length : 0) - keyword.offset};
         if (name.kind != TokenKind::Word || found == kClassNames.end() || !parsed) {
-            diagnostics_.error(Code::AssSyntax, "a declaration that cannot be read", where, "write: declare NAME constant|uniform|varying|indexed [ARRAY] TYPE");
+            diagnostics_.error(
+                Code::AssSyntax, "a declaration that cannot be read", where,
+                "write: declare NAME constant|uniform|varying|indexed [ARRAY] TYPE");
             return;
         }
         out.name = Name(text.text(name));
@@ -198,29 +238,41 @@ class AssReader {
     }
 
     /// The same file under any spelling of its path.
-    static std::string normal(const std::string& path) { return std::filesystem::path(path).lexically_normal().string(); }
+    static std::string normal(const std::string& path) {
+        return std::filesystem::path(path).lexically_normal().string();
+    }
 
     void include(Text& text, const Token& keyword) {
         const Token token = text.lexer.next();
-        const SourceSpan where{text.source, keyword.offset, token.offset + token.length - keyword.offset};
+        const SourceSpan where{text.source, keyword.offset,
+                               token.offset + token.length - keyword.offset};
         if (!token.closed) {
-            diagnostics_.error(Code::AssUnclosed, "the name of an included file does not end", {text.source, token.offset, 1}, "add the closing quote");
+            diagnostics_.error(Code::AssUnclosed, "the name of an included file does not end",
+                               {text.source, token.offset, 1}, "add the closing quote");
             return;
         }
         const std::string path = unquote(text.text(token));
         if (document_.includes_.size() >= kMaxIncludes || open_files_.size() > kMaxIncludeDepth) {
             diagnostics_.error(Code::LimitIncludes, "file \"" + path + "\" is not included", where,
-                               "at most " + std::to_string(kMaxIncludes) + " include statements (kMaxIncludes), " + std::to_string(kMaxIncludeDepth) + " inside one another (kMaxIncludeDepth)");
+                               "at most " + std::to_string(kMaxIncludes) +
+                                   " include statements (kMaxIncludes), " +
+                                   std::to_string(kMaxIncludeDepth) +
+                                   " inside one another (kMaxIncludeDepth)");
             return;
         }
         // Beside the including file first, then as the path says.
-        const std::string beside = normal((std::filesystem::path(text.source->name).parent_path() / path).string());
+        const std::string beside =
+            normal((std::filesystem::path(text.source->name).parent_path() / path).string());
         std::string found_path = beside;
         for (const std::string& candidate : {beside, normal(path)})
-            if (std::find(open_files_.begin(), open_files_.end(), candidate) != open_files_.end()) {
+            if (std::find(open_files_.begin(), open_files_.end(), candidate) !=
+                open_files_.end()) {
                 std::string chain;
-                for (const std::string& open : open_files_) chain += "\"" + open + "\" includes ";
-                diagnostics_.error(Code::IncludeCycle, "a file includes itself: " + chain + "\"" + candidate + "\"", where);
+                for (const std::string& open : open_files_)
+                    chain += "\"" + open + "\" includes ";
+                diagnostics_.error(Code::IncludeCycle,
+                                   "a file includes itself: " + chain + "\"" + candidate + "\"",
+                                   where);
                 return;
             }
         std::optional<std::string> content = read_file_ ? read_file_(beside) : std::nullopt;
@@ -229,12 +281,15 @@ class AssReader {
             content = read_file_(found_path);
         }
         if (!content) {
-            diagnostics_.error(Code::FileNotFound, "included file \"" + path + "\" cannot be read", where, "looked for \"" + beside + "\"");
+            diagnostics_.error(Code::FileNotFound, "included file \"" + path + "\" cannot be read",
+                               where, "looked for \"" + beside + "\"");
             return;
         }
         n_bytes_ += content->size();
         if (n_bytes_ > kMaxSceneBytes) {
-            diagnostics_.error(Code::LimitFileSize, "the scene with its included files is too large", where, "at most " + std::to_string(kMaxSceneBytes) + " bytes (kMaxSceneBytes)");
+            diagnostics_.error(
+                Code::LimitFileSize, "the scene with its included files is too large", where,
+                "at most " + std::to_string(kMaxSceneBytes) + " bytes (kMaxSceneBytes)");
             return;
         }
         const std::uint32_t index = document_.add_source(found_path, std::move(*content));
@@ -242,7 +297,9 @@ class AssReader {
         file(index);
     }
 
-    static constexpr std::array<UserDataClass, 4> kClassNames{UserDataClass::Constant, UserDataClass::Uniform, UserDataClass::Varying, UserDataClass::Indexed};
+    static constexpr std::array<UserDataClass, 4> kClassNames{
+        UserDataClass::Constant, UserDataClass::Uniform, UserDataClass::Varying,
+        UserDataClass::Indexed};
 
     Document& document_;
     const ReadFile& read_file_;
@@ -252,7 +309,8 @@ class AssReader {
     std::size_t n_bytes_ = 0;
 };
 
-Document read_ass(std::string text, std::string name, const ReadFile& read_file, Diagnostics& diagnostics) {
+Document read_ass(std::string text, std::string name, const ReadFile& read_file,
+                  Diagnostics& diagnostics) {
     Document document;
     AssReader(document, read_file, diagnostics).read(std::move(name), std::move(text));
     return document;

@@ -29,12 +29,15 @@ inline constexpr std::size_t kMaxIncludeDepth = 32;
 /// text       the file's bytes
 /// name       shown in diagnostics; includes are looked for beside it
 /// read_file  opens included files; without one each include is an error
-[[nodiscard]] Document read_ass(std::string text, std::string name, const ReadFile& read_file, Diagnostics& diagnostics);
+[[nodiscard]] Document read_ass(std::string text, std::string name, const ReadFile& read_file,
+                                Diagnostics& diagnostics);
 
 /// Reads a file and the files that it includes; gzip is recognised by content. Errors: file-*, ass-*, array-*, include-*, limit-*.
 [[nodiscard]] Document read_ass_file(const std::string& path, Diagnostics& diagnostics);
 
 /// A file's bytes, decompressed if they are gzip, at most `max_bytes`; nothing with an error reported otherwise.
-[[nodiscard]] std::optional<std::string> read_text_file(const std::string& path, Diagnostics& diagnostics, std::size_t max_bytes = kMaxSceneBytes);
+[[nodiscard]] std::optional<std::string> read_text_file(const std::string& path,
+                                                        Diagnostics& diagnostics,
+                                                        std::size_t max_bytes = kMaxSceneBytes);
 
 }  // namespace lightsieve

@@ -7,11 +7,11 @@
 namespace lightsieve {
 
 struct CameraRay {
-    Vec3f origin, direction;  ///< world space; direction unit
+    Vec3f origin, direction;             ///< world space; direction unit
     float t_min = 0, t_max = kInfinity;  ///< clipping planes, as distances along the ray
-    float weight = 1;         ///< factor on what the ray brings: exposure, vignetting
-    float spread = 0;         ///< angle that one pixel covers [rad], for texture filtering; ortho: 0
-    float width = 0;          ///< width of a pixel's footprint at the origin [scene units]; perspective: 0
+    float weight = 1;                    ///< factor on what the ray brings: exposure, vignetting
+    float spread = 0;  ///< angle that one pixel covers [rad], for texture filtering; ortho: 0
+    float width = 0;  ///< width of a pixel's footprint at the origin [scene units]; perspective: 0
 };
 
 class Camera {

@@ -30,19 +30,32 @@ struct IsArray<Array<E>> : std::true_type {
 
 template <class M>
 constexpr ParamType param_type() {
-    if constexpr (std::is_same_v<M, bool>) return ParamType::Bool;
-    else if constexpr (std::is_same_v<M, std::uint8_t>) return ParamType::Byte;
-    else if constexpr (std::is_enum_v<M>) return ParamType::Enum;
-    else if constexpr (std::is_same_v<M, std::int32_t>) return ParamType::Int;
-    else if constexpr (std::is_same_v<M, std::uint32_t>) return ParamType::UInt;
-    else if constexpr (std::is_same_v<M, float>) return ParamType::Float;
-    else if constexpr (std::is_same_v<M, Color>) return ParamType::Rgb;
-    else if constexpr (std::is_same_v<M, Rgba>) return ParamType::Rgba;
-    else if constexpr (std::is_same_v<M, Vec3f>) return ParamType::Vector;
-    else if constexpr (std::is_same_v<M, Vec2f>) return ParamType::Vector2;
-    else if constexpr (std::is_same_v<M, Name>) return ParamType::String;
-    else if constexpr (std::is_same_v<M, Mat4f>) return ParamType::Matrix;
-    else if constexpr (std::is_same_v<M, NodeRef>) return ParamType::Node;
+    if constexpr (std::is_same_v<M, bool>)
+        return ParamType::Bool;
+    else if constexpr (std::is_same_v<M, std::uint8_t>)
+        return ParamType::Byte;
+    else if constexpr (std::is_enum_v<M>)
+        return ParamType::Enum;
+    else if constexpr (std::is_same_v<M, std::int32_t>)
+        return ParamType::Int;
+    else if constexpr (std::is_same_v<M, std::uint32_t>)
+        return ParamType::UInt;
+    else if constexpr (std::is_same_v<M, float>)
+        return ParamType::Float;
+    else if constexpr (std::is_same_v<M, Color>)
+        return ParamType::Rgb;
+    else if constexpr (std::is_same_v<M, Rgba>)
+        return ParamType::Rgba;
+    else if constexpr (std::is_same_v<M, Vec3f>)
+        return ParamType::Vector;
+    else if constexpr (std::is_same_v<M, Vec2f>)
+        return ParamType::Vector2;
+    else if constexpr (std::is_same_v<M, Name>)
+        return ParamType::String;
+    else if constexpr (std::is_same_v<M, Mat4f>)
+        return ParamType::Matrix;
+    else if constexpr (std::is_same_v<M, NodeRef>)
+        return ParamType::Node;
     else {
         static_assert(std::is_same_v<M, ShaderRef>, "not a parameter type");
         return ParamType::Closure;
@@ -55,10 +68,14 @@ inline ShaderValue to_value(Vec3f v) { return {{v.x, v.y, v.z}, 1}; }
 inline ShaderValue to_value(Rgba v) { return v; }
 template <class R>
 constexpr OutputType output_type() {
-    if constexpr (std::is_same_v<R, float>) return OutputType::Float;
-    else if constexpr (std::is_same_v<R, Color>) return OutputType::Rgb;
-    else if constexpr (std::is_same_v<R, Vec3f>) return OutputType::Vector;
-    else return OutputType::Rgba;
+    if constexpr (std::is_same_v<R, float>)
+        return OutputType::Float;
+    else if constexpr (std::is_same_v<R, Color>)
+        return OutputType::Rgb;
+    else if constexpr (std::is_same_v<R, Vec3f>)
+        return OutputType::Vector;
+    else
+        return OutputType::Rgba;
 }
 
 }  // namespace describe_detail
@@ -116,7 +133,7 @@ class Describe {
 
     template <class Owner, class M>
         requires std::derived_from<T, Owner>
-    ParamBuilder param(const char* name, M Owner::*member, std::string doc) {
+    ParamBuilder param(const char* name, M Owner::* member, std::string doc) {
         using namespace describe_detail;
         ParamInfo info;
         info.name = name;
@@ -128,7 +145,9 @@ class Describe {
             info.type = param_type<M>();
             if constexpr (std::is_enum_v<M>) static_assert(sizeof(M) == sizeof(std::int32_t));
         }
-        info.offset = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(defaults_.*member)) - reinterpret_cast<const std::byte*>(&defaults_));
+        info.offset =
+            static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(defaults_.*member)) -
+                                     reinterpret_cast<const std::byte*>(&defaults_));
         type_.params.push_back(std::move(info));
         return ParamBuilder(type_.params.back());
     }
@@ -143,32 +162,55 @@ class Describe {
         std::memcpy(type_.default_block.data(), &defaults_, sizeof(T));
         add_shading();
         if constexpr (requires(T& t, NodeContext& c) { t.prepare(c); })
-            type_.prepare = [](void* block, NodeContext& c) { static_cast<T*>(block)->prepare(c); };
+            type_.prepare = [](void* block, NodeContext& c) {
+                static_cast<T*>(block)->prepare(c);
+            };
         if constexpr (requires(const T& t, NodeContext& c) { t.make_light(c); })
-            type_.make_light = [](const void* block, NodeContext& c) { return static_cast<const T*>(block)->make_light(c); };
+            type_.make_light = [](const void* block, NodeContext& c) {
+                return static_cast<const T*>(block)->make_light(c);
+            };
         if constexpr (requires(const T& t, NodeContext& c) { t.make_geometry(c); })
-            type_.make_geometry = [](const void* block, NodeContext& c) { return static_cast<const T*>(block)->make_geometry(c); };
+            type_.make_geometry = [](const void* block, NodeContext& c) {
+                return static_cast<const T*>(block)->make_geometry(c);
+            };
         if constexpr (requires(const T& t, NodeContext& c) { t.make_camera(c); })
-            type_.make_camera = [](const void* block, NodeContext& c) { return static_cast<const T*>(block)->make_camera(c); };
+            type_.make_camera = [](const void* block, NodeContext& c) {
+                return static_cast<const T*>(block)->make_camera(c);
+            };
         if constexpr (requires(const T& t, NodeContext& c) { t.make_filter(c); })
-            type_.make_filter = [](const void* block, NodeContext& c) { return static_cast<const T*>(block)->make_filter(c); };
+            type_.make_filter = [](const void* block, NodeContext& c) {
+                return static_cast<const T*>(block)->make_filter(c);
+            };
         if constexpr (requires(const T& t, NodeContext& c) { t.make_driver(c); })
-            type_.make_driver = [](const void* block, NodeContext& c) { return static_cast<const T*>(block)->make_driver(c); };
+            type_.make_driver = [](const void* block, NodeContext& c) {
+                return static_cast<const T*>(block)->make_driver(c);
+            };
         if constexpr (std::is_convertible_v<const T*, const ShapeCommon*>)
-            type_.shape_common = [](const void* block) -> const ShapeCommon* { return static_cast<const T*>(block); };
+            type_.shape_common = [](const void* block) -> const ShapeCommon* {
+                return static_cast<const T*>(block);
+            };
         if constexpr (std::is_convertible_v<const T*, const LightCommon*>)
-            type_.light_common = [](const void* block) -> const LightCommon* { return static_cast<const T*>(block); };
+            type_.light_common = [](const void* block) -> const LightCommon* {
+                return static_cast<const T*>(block);
+            };
         return std::move(type_);
     }
 
   private:
     void add_shading() {
-        if constexpr (requires(const T& t, const ShadePoint& at, ClosureSet& out) { t.eval(at, out); }) {
-            type_.eval_closure = [](const void* block, const ShadePoint& at, ClosureSet& out) { static_cast<const T*>(block)->eval(at, out); };
+        if constexpr (requires(const T& t, const ShadePoint& at, ClosureSet& out) {
+                          t.eval(at, out);
+                      }) {
+            type_.eval_closure = [](const void* block, const ShadePoint& at, ClosureSet& out) {
+                static_cast<const T*>(block)->eval(at, out);
+            };
             type_.output = OutputType::Closure;
         } else if constexpr (requires(const T& t, const ShadePoint& at) { t.eval(at); }) {
-            type_.eval_value = [](const void* block, const ShadePoint& at) { return describe_detail::to_value(static_cast<const T*>(block)->eval(at)); };
-            type_.output = describe_detail::output_type<decltype(std::declval<const T&>().eval(std::declval<const ShadePoint&>()))>();
+            type_.eval_value = [](const void* block, const ShadePoint& at) {
+                return describe_detail::to_value(static_cast<const T*>(block)->eval(at));
+            };
+            type_.output = describe_detail::output_type<decltype(std::declval<const T&>().eval(
+                std::declval<const ShadePoint&>()))>();
         }
     }
 

@@ -12,17 +12,21 @@ constexpr std::array<std::string_view, 4> kClasses{"constant", "uniform", "varyi
 constexpr std::array<std::string_view, 4> kForms{"numbers", "strings", "word", "array"};
 
 bool same_target(const ParamText& param, const ParamName& name) {
-    return param.name.view() == name.base && param.element == name.element && param.component == name.component;
+    return param.name.view() == name.base && param.element == name.element &&
+           param.component == name.component;
 }
 
 }  // namespace
 
-std::string_view class_text(UserDataClass user_class) { return kClasses.at(static_cast<std::size_t>(user_class)); }
+std::string_view class_text(UserDataClass user_class) {
+    return kClasses.at(static_cast<std::size_t>(user_class));
+}
 
 Document::Document() { add_source("<document>", ""); }
 
 std::uint32_t Document::add_source(std::string name, std::string text) {
-    sources_.push_back(std::make_shared<const SourceText>(SourceText{std::move(name), std::move(text)}));
+    sources_.push_back(
+        std::make_shared<const SourceText>(SourceText{std::move(name), std::move(text)}));
     return static_cast<std::uint32_t>(sources_.size() - 1);
 }
 
@@ -35,9 +39,13 @@ std::int64_t Document::find(Name name) const {
     return -1;
 }
 
-std::string_view Document::text(const TextRange& range) const { return std::string_view(sources_[range.source]->text).substr(range.offset, range.length); }
+std::string_view Document::text(const TextRange& range) const {
+    return std::string_view(sources_[range.source]->text).substr(range.offset, range.length);
+}
 
-SourceSpan Document::span(const TextRange& range) const { return {sources_[range.source], range.offset, range.length}; }
+SourceSpan Document::span(const TextRange& range) const {
+    return {sources_[range.source], range.offset, range.length};
+}
 
 std::size_t Document::add_node(Name type, Name name) {
     NodeBlock node;
@@ -51,7 +59,8 @@ std::size_t Document::add_node(Name type, Name name) {
     Diagnostics unused;  // a word or a quoted string is always a value
     if (!name.empty()) {
         std::string quoted = "\"";
-        for (const char c : name.view()) quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+        for (const char c : name.view())
+            quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
         set_param(nodes_.size() - 1, "name", quoted + '"', unused);
     }
     return nodes_.size() - 1;
@@ -62,18 +71,23 @@ void Document::remove_node(std::size_t node) {
     nodes_.erase(nodes_.begin() + static_cast<std::ptrdiff_t>(node));
 }
 
-bool Document::set_param(std::size_t node, std::string_view param, std::string_view value, Diagnostics& diagnostics) {
+bool Document::set_param(std::size_t node, std::string_view param, std::string_view value,
+                         Diagnostics& diagnostics) {
     const std::optional<ParamName> name = parse_param_name(param);
-    const std::uint32_t source = add_source("<edit of " + std::string(param) + ">", std::string(value));
+    const std::uint32_t source =
+        add_source("<edit of " + std::string(param) + ">", std::string(value));
     AssLexer lexer(sources_[source]->text);
     std::optional<ValueText> read;
     if (!name) {
-        diagnostics.error(Code::AssSyntax, "\"" + std::string(param) + "\" is no parameter name", {}, "names look like Kd, Kd_color.r or color[1]");
+        diagnostics.error(Code::AssSyntax, "\"" + std::string(param) + "\" is no parameter name",
+                          {}, "names look like Kd, Kd_color.r or color[1]");
     } else {
         read = lex_value(lexer, sources_[source], source, param, diagnostics);
     }
     if (read && lexer.peek() != '\0') {
-        diagnostics.error(Code::AssSyntax, "one value is expected", {sources_[source], lexer.position(), 1}, "a text with blanks needs quotes");
+        diagnostics.error(Code::AssSyntax, "one value is expected",
+                          {sources_[source], lexer.position(), 1},
+                          "a text with blanks needs quotes");
         read.reset();
     }
     if (!read) {
@@ -82,7 +96,8 @@ bool Document::set_param(std::size_t node, std::string_view param, std::string_v
     }
     NodeBlock& block = nodes_[node];
     // The last statement is the one that counts.
-    const auto found = std::find_if(block.params.rbegin(), block.params.rend(), [&](const ParamText& p) { return same_target(p, *name); });
+    const auto found = std::find_if(block.params.rbegin(), block.params.rend(),
+                                    [&](const ParamText& p) { return same_target(p, *name); });
     if (found != block.params.rend()) {
         found->value = *read;
     } else {
@@ -95,7 +110,9 @@ bool Document::set_param(std::size_t node, std::string_view param, std::string_v
         added.value = *read;
         block.params.push_back(std::move(added));
     }
-    if (param == "name") block.name = Name(read->form == ValueForm::Strings ? unquote(text(read->range)) : std::string(text(read->range)));
+    if (param == "name")
+        block.name = Name(read->form == ValueForm::Strings ? unquote(text(read->range))
+                                                           : std::string(text(read->range)));
     return true;
 }
 
@@ -116,7 +133,10 @@ std::string dump(const Document& document) {
     for (const NodeBlock& node : document.nodes()) {
         out += node.type.str() + " \"" + node.name.str() + "\"\n";
         for (const DeclareText& declare : node.declares)
-            out += "  declare " + declare.name.str() + " " + std::string(class_text(declare.user_class)) + (declare.is_array ? " ARRAY " : " ") + std::string(type_text(declare.type)) + "\n";
+            out += "  declare " + declare.name.str() + " " +
+                   std::string(class_text(declare.user_class)) +
+                   (declare.is_array ? " ARRAY " : " ") + std::string(type_text(declare.type)) +
+                   "\n";
         for (const ParamText& param : node.params) {
             out += "  " + param.name.str();
             if (param.element >= 0) out += "[" + std::to_string(param.element) + "]";
@@ -125,7 +145,9 @@ std::string dump(const Document& document) {
             const ArrayHeader& array = param.value.array;
             if (param.value.form == ValueForm::Array) {
                 constexpr std::array<std::string_view, 3> kEncodings{"", " b85", " b64"};
-                out += " " + std::to_string(array.n) + " x " + std::to_string(array.n_keys) + " " + std::string(type_text(array.type)) + std::string(kEncodings.at(static_cast<std::size_t>(array.encoding)));
+                out += " " + std::to_string(array.n) + " x " + std::to_string(array.n_keys) + " " +
+                       std::string(type_text(array.type)) +
+                       std::string(kEncodings.at(static_cast<std::size_t>(array.encoding)));
             } else {
                 out += " " + std::string(document.text(param.value.range));
             }

@@ -21,9 +21,9 @@ namespace lightsieve {
 
 /// A run of bytes in one of a document's texts.
 struct TextRange {
-    std::uint32_t source = 0;   ///< index of the text; `Document::span` turns it into a SourceSpan
-    std::size_t offset = 0;     ///< first byte
-    std::size_t length = 0;     ///< bytes
+    std::uint32_t source = 0;  ///< index of the text; `Document::span` turns it into a SourceSpan
+    std::size_t offset = 0;    ///< first byte
+    std::size_t length = 0;    ///< bytes
     [[nodiscard]] std::size_t end() const { return offset + length; }
 };
 
@@ -40,18 +40,18 @@ enum class ArrayEncoding : std::uint8_t { Text, B85, B64 };
 
 /// The head of an array value. Checked: the data holds `n * n_keys` elements.
 struct ArrayHeader {
-    std::uint32_t n = 0;         ///< elements a motion key
-    std::uint32_t n_keys = 1;    ///< motion keys, at least 1
-    ParamType type{};            ///< POINT is Vector, POINT2 is Vector2, POINTER is Node
-    ArrayEncoding encoding{};    ///< text or packed
-    std::size_t data_offset = 0; ///< first byte after the head, in the value's text
+    std::uint32_t n = 0;          ///< elements a motion key
+    std::uint32_t n_keys = 1;     ///< motion keys, at least 1
+    ParamType type{};             ///< POINT is Vector, POINT2 is Vector2, POINTER is Node
+    ArrayEncoding encoding{};     ///< text or packed
+    std::size_t data_offset = 0;  ///< first byte after the head, in the value's text
 };
 
 /// A value as written.
 struct ValueText {
     ValueForm form{};
-    TextRange range;     ///< from the value's first byte to its last
-    ArrayHeader array;   ///< for ValueForm::Array only
+    TextRange range;    ///< from the value's first byte to its last
+    ArrayHeader array;  ///< for ValueForm::Array only
 };
 
 /// `NAME VALUE`, `NAME.r VALUE`, `NAME[2] VALUE`, `NAME[2].r VALUE`.
@@ -59,9 +59,9 @@ struct ParamText {
     Name name;                   ///< without the suffixes
     std::int64_t element = -1;   ///< the number in brackets, or -1
     std::int8_t component = -1;  ///< 0..3 for .r .g .b .a or .x .y .z, or -1
-    TextRange statement;         ///< name and value in the node's file; length 0 if added by an edit
-    TextRange name_range;        ///< the name with its suffixes
-    ValueText value;             ///< lies in another text than `statement` after an edit
+    TextRange statement;   ///< name and value in the node's file; length 0 if added by an edit
+    TextRange name_range;  ///< the name with its suffixes
+    ValueText value;       ///< lies in another text than `statement` after an edit
 };
 
 /// What one value of user data belongs to.
@@ -85,14 +85,15 @@ struct DeclareText {
 
 /// One node as written.
 struct NodeBlock {
-    Name type;                          ///< e.g. "polymesh"
-    Name name;                          ///< value of its parameter `name`; empty if it has none
-    TextRange whole;                    ///< from the type to the closing brace; of a node that was added: empty
-    TextRange type_range;               ///< the type's name
+    Name type;             ///< e.g. "polymesh"
+    Name name;             ///< value of its parameter `name`; empty if it has none
+    TextRange whole;       ///< from the type to the closing brace; of a node that was added: empty
+    TextRange type_range;  ///< the type's name
     std::vector<DeclareText> declares;
-    std::vector<ParamText> params;      ///< in file order, `name` among them; a later one overrides an earlier one
-    std::vector<TextRange> removed;     ///< statements that an edit took out
-    bool added = false;                 ///< made by `Document::add_node`
+    std::vector<ParamText>
+        params;  ///< in file order, `name` among them; a later one overrides an earlier one
+    std::vector<TextRange> removed;  ///< statements that an edit took out
+    bool added = false;              ///< made by `Document::add_node`
 };
 
 /// `include "FILE"` at file level.
@@ -115,7 +116,9 @@ class Document {
     /// A range as a place for diagnostics.
     [[nodiscard]] SourceSpan span(const TextRange& range) const;
     /// The texts: 0 is the file itself, then included files and the texts of edits.
-    [[nodiscard]] const std::vector<std::shared_ptr<const SourceText>>& sources() const { return sources_; }
+    [[nodiscard]] const std::vector<std::shared_ptr<const SourceText>>& sources() const {
+        return sources_;
+    }
     /// The include statements of all files, in reading order.
     [[nodiscard]] const std::vector<IncludeText>& includes() const { return includes_; }
 
@@ -126,7 +129,8 @@ class Document {
     /// Sets a parameter to a value written as in a file; `param` may have suffixes ("color[1].r").
     ///
     /// returns  false with an error reported if either cannot be read; the document is then unchanged
-    bool set_param(std::size_t node, std::string_view param, std::string_view value, Diagnostics& diagnostics);
+    bool set_param(std::size_t node, std::string_view param, std::string_view value,
+                   Diagnostics& diagnostics);
     /// Takes a parameter out. False if the node does not have it as written there.
     bool remove_param(std::size_t node, std::string_view param);
 

@@ -21,7 +21,9 @@ std::string reports(const Diagnostics& diagnostics) {
     std::string out;
     for (const Error& e : diagnostics.items()) {
         const LineColumn at = e.where.line_column();
-        out += (e.where.known() ? std::to_string(at.line) + ":" + std::to_string(at.column) + " " : std::string()) + std::string(code_text(e.code)) + "\n";
+        out += (e.where.known() ? std::to_string(at.line) + ":" + std::to_string(at.column) + " "
+                                : std::string()) +
+               std::string(code_text(e.code)) + "\n";
     }
     return out;
 }
@@ -40,10 +42,13 @@ Read read(const std::string& text, const ReadFile& files = nullptr) {
 // ---- damage ----
 
 TEST(Damage, AllErrorsAtOnceAndTheRestIsRead) {
-    const Read r = read("polymesh\n{\n name a\n vlist 3 1 VECTOR 1 2\n id 4\n}\n"
-                        "polymesh\n{\n name b\n 5 6\n id 7\n nsides 2 1 UNIT 3 3\n}\n"
-                        "} nonsense\npolymesh\n{\n name c\n id\n}\n");
-    EXPECT_EQ(r.errors, "4:8 array-count\n10:2 ass-syntax\n12:13 ass-syntax\n14:1 ass-syntax\n18:2 ass-syntax\n");
+    const Read r = read(
+        "polymesh\n{\n name a\n vlist 3 1 VECTOR 1 2\n id 4\n}\n"
+        "polymesh\n{\n name b\n 5 6\n id 7\n nsides 2 1 UNIT 3 3\n}\n"
+        "} nonsense\npolymesh\n{\n name c\n id\n}\n");
+    EXPECT_EQ(
+        r.errors,
+        "4:8 array-count\n10:2 ass-syntax\n12:13 ass-syntax\n14:1 ass-syntax\n18:2 ass-syntax\n");
     EXPECT_EQ(dump(r.document),
               "polymesh \"a\"\n  name: word a\n  id: numbers 4\n"
               "polymesh \"b\"\n  name: word b\n  id: numbers 7\n"
@@ -52,16 +57,18 @@ TEST(Damage, AllErrorsAtOnceAndTheRestIsRead) {
 
 TEST(Damage, TheMessageShowsThePlaceAndWhatToDo) {
     Diagnostics diagnostics;
-    (void)read_ass("polymesh\n{\n name a\n vlist 12 1 VECTOR\n  1 2 3", "shot.ass", nullptr, diagnostics);
-    EXPECT_EQ(diagnostics.render(),
-              "shot.ass:4:8: error[array-count]: array \"vlist\" has 1 elements, but its head says 12\n"
-              "    4 |  vlist 12 1 VECTOR\n"
-              "      |        ^~~~~~~~~~~\n"
-              "  hint: the file ends here: it may be cut off\n"
-              "shot.ass:1:1: error[ass-unclosed]: node \"polymesh\" does not end\n"
-              "    1 | polymesh\n"
-              "      | ^~~~~~~~\n"
-              "  hint: the file ends here: it may be cut off\n");
+    (void)read_ass("polymesh\n{\n name a\n vlist 12 1 VECTOR\n  1 2 3", "shot.ass", nullptr,
+                   diagnostics);
+    EXPECT_EQ(
+        diagnostics.render(),
+        "shot.ass:4:8: error[array-count]: array \"vlist\" has 1 elements, but its head says 12\n"
+        "    4 |  vlist 12 1 VECTOR\n"
+        "      |        ^~~~~~~~~~~\n"
+        "  hint: the file ends here: it may be cut off\n"
+        "shot.ass:1:1: error[ass-unclosed]: node \"polymesh\" does not end\n"
+        "    1 | polymesh\n"
+        "      | ^~~~~~~~\n"
+        "  hint: the file ends here: it may be cut off\n");
 }
 
 TEST(Damage, UnclosedNode) {
@@ -92,11 +99,14 @@ TEST(Damage, PackedArrays) {
 
 TEST(Damage, HugeCounts) {
     EXPECT_EQ(read("m\n{\n vlist 4000000000 1 VECTOR\n  1 2 3\n}\n").errors, "3:8 array-count\n");
-    EXPECT_EQ(read("m\n{\n vlist 4000000000 4000000000 b85MATRIX\n  yyy\n}\n").errors, "3:8 array-count\n");
-    EXPECT_EQ(read("m\n{\n vlist 99999999999999999999999 1 FLOAT\n  1 2 3\n}\n").errors, "3:8 array-count\n");
+    EXPECT_EQ(read("m\n{\n vlist 4000000000 4000000000 b85MATRIX\n  yyy\n}\n").errors,
+              "3:8 array-count\n");
+    EXPECT_EQ(read("m\n{\n vlist 99999999999999999999999 1 FLOAT\n  1 2 3\n}\n").errors,
+              "3:8 array-count\n");
     EXPECT_EQ(read("m\n{\n vlist 4000000000 1 STRING\n  \"a\"\n}\n").errors, "3:8 array-count\n");
     EXPECT_EQ(read("m\n{\n vlist 4000000000 2 b64FLOAT\n AAAA\n}\n").errors, "3:8 array-count\n");
-    EXPECT_EQ(read("m\n{\n vlist 3 0 VECTOR 1 2 3\n id 3\n}\n").errors, "3:8 array-count\n3:19 ass-syntax\n");
+    EXPECT_EQ(read("m\n{\n vlist 3 0 VECTOR 1 2 3\n id 3\n}\n").errors,
+              "3:8 array-count\n3:19 ass-syntax\n");
 }
 
 TEST(Damage, MissingElementsDoNotSwallowWhatFollows) {
@@ -112,7 +122,11 @@ TEST(Damage, Declarations) {
 }
 
 TEST(Damage, NoSceneFileAtAll) {
-    EXPECT_EQ(read(std::string("\x7f" "ELF\0\0\0", 7)).errors, "file-format\n");
+    EXPECT_EQ(read(std::string("\x7f"
+                               "ELF\0\0\0",
+                               7))
+                  .errors,
+              "file-format\n");
     EXPECT_EQ(read("{{{{{{{{{{").errors, "1:1 ass-syntax\n");
     EXPECT_EQ(read("hello world").errors, "1:1 ass-syntax\n");
     EXPECT_EQ(read("\"a string\"").errors, "1:1 ass-syntax\n");
@@ -121,19 +135,25 @@ TEST(Damage, NoSceneFileAtAll) {
 
 /// Every prefix of a file, and the file with bytes changed: reports, but neither crashes nor hangs.
 TEST(Damage, TruncationsAndNoise) {
-    const std::string text = "# c\npolymesh\n{\n name a\n declare c uniform RGB\n c 2 1 RGB 1 2 3 4 5 6\n vlist 4 1 b85VECTOR\nyz!z$$$$,y\n y\n"
-                             " shader 2 1 NODE \"a\" \"b\\\"\"\n outputs \"x y\" \"z\"\n color[1].r b.g\n v 2 1 b64FLOAT AACAPwAAAEA\n}\ninclude \"x\"\n";
-    for (std::size_t n = 0; n <= text.size(); ++n) (void)read(text.substr(0, n));
+    const std::string text =
+        "# c\npolymesh\n{\n name a\n declare c uniform RGB\n c 2 1 RGB 1 2 3 4 5 6\n vlist 4 1 "
+        "b85VECTOR\nyz!z$$$$,y\n y\n"
+        " shader 2 1 NODE \"a\" \"b\\\"\"\n outputs \"x y\" \"z\"\n color[1].r b.g\n v 2 1 "
+        "b64FLOAT AACAPwAAAEA\n}\ninclude \"x\"\n";
+    for (std::size_t n = 0; n <= text.size(); ++n)
+        (void)read(text.substr(0, n));
     std::mt19937 random(11);
     const std::string bytes = "{}\"\\#\n $!zyBx0123.eA[]\xff\x01";
     for (int i = 0; i < 3000; ++i) {
         std::string noisy = text;
-        for (int k = 0; k < 4; ++k) noisy[random() % noisy.size()] = bytes[random() % bytes.size()];
+        for (int k = 0; k < 4; ++k)
+            noisy[random() % noisy.size()] = bytes[random() % bytes.size()];
         (void)read(noisy);
     }
     for (int i = 0; i < 300; ++i) {
         std::string garbage;
-        for (int k = 0; k < 400; ++k) garbage += bytes[random() % bytes.size()];
+        for (int k = 0; k < 400; ++k)
+            garbage += bytes[random() % bytes.size()];
         (void)read(garbage);
     }
 }
@@ -141,9 +161,12 @@ TEST(Damage, TruncationsAndNoise) {
 /// Would take hours if recovery looked for the end of each string from each place.
 TEST(Damage, RecoveryTakesTimeInProportionToTheText) {
     const std::size_t n = 200000;
-    for (const std::string line : {"\\\"\n", "\"\\\"", "a \"\n", "{\n", "}\n", "5 5\n", "x[\n", "# \n", "\n", "a\n", "declare\n", "v 9 1 b85UINT Q\n", "\\\" "}) {
+    for (const std::string line :
+         {"\\\"\n", "\"\\\"", "a \"\n", "{\n", "}\n", "5 5\n", "x[\n", "# \n", "\n", "a\n",
+          "declare\n", "v 9 1 b85UINT Q\n", "\\\" "}) {
         std::string text = "m\n{\n 5\n";
-        for (std::size_t i = 0; i < n; ++i) text += line;
+        for (std::size_t i = 0; i < n; ++i)
+            text += line;
         Diagnostics diagnostics;
         (void)read_ass(text, "t.ass", nullptr, diagnostics);
         (void)read_ass(text.substr(4), "t.ass", nullptr, diagnostics);
@@ -161,10 +184,13 @@ ReadFile files(std::map<std::string, std::string> content) {
 }
 
 TEST(Include, NodesComeInPlaceOfTheStatement) {
-    const Read r = read("m { name a }\ninclude \"sub/b.ass\"\nm { name z }\n", files({{"sub/b.ass", "m { name b }\ninclude \"c.ass\"\n"}, {"sub/c.ass", "m { name c }"}}));
+    const Read r = read("m { name a }\ninclude \"sub/b.ass\"\nm { name z }\n",
+                        files({{"sub/b.ass", "m { name b }\ninclude \"c.ass\"\n"},
+                               {"sub/c.ass", "m { name c }"}}));
     EXPECT_EQ(r.errors, "");
     std::string names;
-    for (const NodeBlock& node : r.document.nodes()) names += node.name.str();
+    for (const NodeBlock& node : r.document.nodes())
+        names += node.name.str();
     EXPECT_EQ(names, "abcz");
     // Places are in the file that a node was written in.
     EXPECT_EQ(r.document.span(r.document.nodes()[2].type_range).source->name, "sub/c.ass");
@@ -173,34 +199,45 @@ TEST(Include, NodesComeInPlaceOfTheStatement) {
 TEST(Include, IsWrittenOutWhereItWasEdited) {
     const ReadFile all = files({{"b.ass", "# b\nm { name b }\n"}, {"c.ass", "m { name c }\n"}});
     Diagnostics diagnostics;
-    Document document = read_ass("include \"b.ass\"\ninclude \"c.ass\"\n", "t.ass", all, diagnostics);
-    ASSERT_TRUE(document.set_param(static_cast<std::size_t>(document.find("b")), "id", "5", diagnostics));
+    Document document =
+        read_ass("include \"b.ass\"\ninclude \"c.ass\"\n", "t.ass", all, diagnostics);
+    ASSERT_TRUE(
+        document.set_param(static_cast<std::size_t>(document.find("b")), "id", "5", diagnostics));
     EXPECT_EQ(write_ass(document), "# b\nm { name b \n id 5\n}\n\ninclude \"c.ass\"\n");
 }
 
 TEST(Include, Errors) {
-    EXPECT_EQ(read("include \"none.ass\"\nm { name a }\n", files({})).errors, "1:1 file-not-found\n");
+    EXPECT_EQ(read("include \"none.ass\"\nm { name a }\n", files({})).errors,
+              "1:1 file-not-found\n");
     EXPECT_EQ(read("include \"none.ass\"\n").errors, "1:1 file-not-found\n");
     EXPECT_EQ(read("include \"./t.ass\"\n", files({{"t.ass", ""}})).errors, "1:1 include-cycle\n");
-    EXPECT_EQ(read("include \"b.ass\"\n", files({{"b.ass", "\n include \"x/../t.ass\""}, {"t.ass", ""}})).errors, "2:2 include-cycle\n");
+    EXPECT_EQ(
+        read("include \"b.ass\"\n", files({{"b.ass", "\n include \"x/../t.ass\""}, {"t.ass", ""}}))
+            .errors,
+        "2:2 include-cycle\n");
     EXPECT_EQ(read("include \"b.ass").errors, "1:9 ass-unclosed\n");
 }
 
 TEST(Include, DoublingFilesEnd) {
     // Each file includes the next twice: 2^30 files if nobody counted.
     std::map<std::string, std::string> content;
-    for (int i = 1; i < 30; ++i) content["f" + std::to_string(i)] = "include \"f" + std::to_string(i + 1) + "\"\ninclude \"f" + std::to_string(i + 1) + "\"\n";
+    for (int i = 1; i < 30; ++i)
+        content["f" + std::to_string(i)] = "include \"f" + std::to_string(i + 1) +
+                                           "\"\ninclude \"f" + std::to_string(i + 1) + "\"\n";
     content["f30"] = "m { }\n";
     const Read r = read("include \"f1\"\n", files(content));
     EXPECT_NE(r.errors.find("limit-includes"), std::string::npos);
     std::map<std::string, std::string> deep;
-    for (int i = 1; i < 60; ++i) deep["f" + std::to_string(i)] = "include \"f" + std::to_string(i + 1) + "\"\n";
+    for (int i = 1; i < 60; ++i)
+        deep["f" + std::to_string(i)] = "include \"f" + std::to_string(i + 1) + "\"\n";
     EXPECT_EQ(read("include \"f1\"\n", files(deep)).errors, "1:1 limit-includes\n");
 }
 
 // ---- edits ----
 
-constexpr const char* kScene = "# keep\noptions { AA_samples 3 } # keep too\n\npolymesh\n{\n name  a\n\tid   4 # four\n vlist 1 1 VECTOR\n  1 2 3\n}\n";
+constexpr const char* kScene =
+    "# keep\noptions { AA_samples 3 } # keep too\n\npolymesh\n{\n name  a\n\tid   4 # four\n "
+    "vlist 1 1 VECTOR\n  1 2 3\n}\n";
 
 TEST(Edit, OnlyTheEditedBytesChange) {
     Diagnostics diagnostics;
@@ -211,7 +248,9 @@ TEST(Edit, OnlyTheEditedBytesChange) {
     ASSERT_TRUE(document.set_param(1, "id", "78", diagnostics));
     ASSERT_TRUE(document.remove_param(0, "AA_samples"));
     EXPECT_FALSE(document.remove_param(0, "AA_samples"));
-    EXPECT_EQ(write_ass(document), "# keep\noptions {  } # keep too\n\npolymesh\n{\n name  a\n\tid 78 # four\n vlist 2 1 VECTOR 0 0 0 1 1 1\n color[2].g checker\n}\n");
+    EXPECT_EQ(write_ass(document),
+              "# keep\noptions {  } # keep too\n\npolymesh\n{\n name  a\n\tid 78 # four\n vlist 2 "
+              "1 VECTOR 0 0 0 1 1 1\n color[2].g checker\n}\n");
 }
 
 TEST(Edit, NodesComeAndGo) {
@@ -220,7 +259,9 @@ TEST(Edit, NodesComeAndGo) {
     const std::size_t sphere = document.add_node("sphere", "a \"ball\"");
     ASSERT_TRUE(document.set_param(sphere, "radius", "2", diagnostics));
     document.remove_node(static_cast<std::size_t>(document.find("a")));
-    EXPECT_EQ(write_ass(document), "# keep\noptions { AA_samples 3 } # keep too\n\n\n\nsphere\n{\n name \"a \\\"ball\\\"\"\n radius 2\n}\n");
+    EXPECT_EQ(write_ass(document),
+              "# keep\noptions { AA_samples 3 } # keep too\n\n\n\nsphere\n{\n name \"a "
+              "\\\"ball\\\"\"\n radius 2\n}\n");
     Diagnostics again;
     const Document back = read_ass(write_ass(document), "t.ass", nullptr, again);
     EXPECT_EQ(reports(again), "");
@@ -247,12 +288,18 @@ TEST(Edit, BadValuesChangeNothing) {
 class File : public testing::Test {
   protected:
     void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() / ("lightsieve_document_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        folder_ = std::filesystem::temp_directory_path() /
+                  ("lightsieve_document_test_" +
+                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
         std::filesystem::create_directories(folder_);
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }
-    [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
+    [[nodiscard]] std::string path(const std::string& name) const {
+        return (folder_ / name).string();
+    }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
     void write_gz(const std::string& name, const std::string& text) const {
         gzFile file = gzopen(path(name).c_str(), "wb");
         gzwrite(file, text.data(), static_cast<unsigned>(text.size()));

@@ -26,15 +26,15 @@ struct ImageChannel {
 
 /// One layer: a run of channels that belong together.
 struct ImageLayer {
-    std::string name;        ///< as asked for: "RGBA", "diffuse_key"
-    std::string aov;         ///< the AOV, before renaming
-    std::string aov_type;    ///< "RGBA", "RGB", "FLOAT", "VECTOR", ...
-    std::string expression;  ///< empty if it is no light path expression
-    std::string light_group; ///< empty if it is not restricted to one
-    std::string filter;      ///< filter node type
-    float filter_width = 0;  ///< [pixels]
-    bool half = false;       ///< HALF was asked for this output
-    bool is_color = true;    ///< colour-managed; false for N, P, Z, ...
+    std::string name;            ///< as asked for: "RGBA", "diffuse_key"
+    std::string aov;             ///< the AOV, before renaming
+    std::string aov_type;        ///< "RGBA", "RGB", "FLOAT", "VECTOR", ...
+    std::string expression;      ///< empty if it is no light path expression
+    std::string light_group;     ///< empty if it is not restricted to one
+    std::string filter;          ///< filter node type
+    float filter_width = 0;      ///< [pixels]
+    bool half = false;           ///< HALF was asked for this output
+    bool is_color = true;        ///< colour-managed; false for N, P, Z, ...
     std::size_t n_channels = 0;  ///< 1 to 4, in the order of the buffers
 };
 
@@ -42,18 +42,21 @@ using MetadataValue = std::variant<int, float, std::string, std::vector<float>>;
 
 /// Everything a driver needs to know before the first pixel.
 struct ImageHeader {
-    int width = 0, height = 0;        ///< full frame [pixels]
+    int width = 0, height = 0;                                    ///< full frame [pixels]
     int data_x = 0, data_y = 0, data_width = 0, data_height = 0;  ///< the part that is rendered
     float pixel_aspect_ratio = 1;
-    int bucket_size = 64;             ///< buckets are squares of this size on a grid that starts at data_x, data_y
+    int bucket_size =
+        64;  ///< buckets are squares of this size on a grid that starts at data_x, data_y
     std::vector<ImageLayer> layers;
-    std::map<std::string, MetadataValue> metadata;  ///< "arnold/..." and "lightsieve/..." attributes
+    std::map<std::string, MetadataValue>
+        metadata;  ///< "arnold/..." and "lightsieve/..." attributes
 };
 
 /// A finished rectangle. UINT values travel as the bits of a float (std::bit_cast).
 struct Bucket {
     int x = 0, y = 0, width = 0, height = 0;  ///< in frame pixels
-    std::vector<std::span<const float>> layers;  ///< per layer: height * width * n_channels, row by row
+    std::vector<std::span<const float>>
+        layers;  ///< per layer: height * width * n_channels, row by row
 };
 
 class Driver {

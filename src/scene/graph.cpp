@@ -9,9 +9,16 @@
 namespace lightsieve {
 
 NodeInstance::NodeInstance(const NodeType& type, Name name, SourceSpan where)
-    : type_(type), name_(name), where_(std::move(where)), written_(type.params.size()), set_(type.params.size()), arrays_(type.params.size()) {
-    block_ = static_cast<std::byte*>(::operator new(std::max<std::size_t>(type.block_size, 1), std::align_val_t(type.block_align)));
-    if (!type.default_block.empty()) std::memcpy(block_, type.default_block.data(), type.default_block.size());
+    : type_(type),
+      name_(name),
+      where_(std::move(where)),
+      written_(type.params.size()),
+      set_(type.params.size()),
+      arrays_(type.params.size()) {
+    block_ = static_cast<std::byte*>(::operator new(std::max<std::size_t>(type.block_size, 1),
+                                                    std::align_val_t(type.block_align)));
+    if (!type.default_block.empty())
+        std::memcpy(block_, type.default_block.data(), type.default_block.size());
 }
 
 NodeInstance::~NodeInstance() { ::operator delete(block_, std::align_val_t(type_.block_align)); }
@@ -29,17 +36,20 @@ SourceSpan NodeInstance::where(Name param) const {
 }
 
 bool NodeInstance::is_linked(Name param) const {
-    return std::any_of(links_.begin(), links_.end(), [&](const Link& link) { return link.param->name == param; });
+    return std::any_of(links_.begin(), links_.end(),
+                       [&](const Link& link) { return link.param->name == param; });
 }
 
 const UserData* NodeInstance::find_user_data(Name name) const {
-    const auto found = std::find_if(user_data_.begin(), user_data_.end(), [&](const UserData& data) { return data.name == name; });
+    const auto found = std::find_if(user_data_.begin(), user_data_.end(),
+                                    [&](const UserData& data) { return data.name == name; });
     return found == user_data_.end() ? nullptr : &*found;
 }
 
 std::vector<const NodeInstance*> NodeInstance::references() const {
     std::vector<const NodeInstance*> out;
-    for (const Link& link : links_) out.push_back(link.source);
+    for (const Link& link : links_)
+        out.push_back(link.source);
     for (const ParamInfo& info : type_.params) {
         if (info.type != ParamType::Node && info.type != ParamType::Closure) continue;
         const std::byte* value = block_ + info.offset;
@@ -70,13 +80,16 @@ NodeInstance* SceneGraph::find(Name name) {
     return found == names_.end() ? nullptr : found->second;
 }
 
-bool SceneGraph::set(Name node, std::string_view param, std::string_view value, Diagnostics& diagnostics) {
+bool SceneGraph::set(Name node, std::string_view param, std::string_view value,
+                     Diagnostics& diagnostics) {
     NodeInstance* instance = find(node);
     if (instance == nullptr && node.view() == "options") instance = add(node, node, diagnostics);
     if (instance == nullptr) {
         std::vector<std::string> names;
-        for (const auto& [name, unused] : names_) names.push_back(name.str());
-        diagnostics.error(Code::UnknownReference, "the scene has no node \"" + node.str() + "\"", {}, did_you_mean(node.view(), names));
+        for (const auto& [name, unused] : names_)
+            names.push_back(name.str());
+        diagnostics.error(Code::UnknownReference, "the scene has no node \"" + node.str() + "\"",
+                          {}, did_you_mean(node.view(), names));
         return false;
     }
     return GraphEditor(*this, UnknownPolicy::Error, diagnostics).set(*instance, param, value);
@@ -85,10 +98,13 @@ bool SceneGraph::set(Name node, std::string_view param, std::string_view value, 
 bool SceneGraph::assign(std::string_view assignment, Diagnostics& diagnostics) {
     // Names may contain "." and "=": take the longest node name that exists.
     std::string_view first_node, first_param, first_value;
-    for (std::size_t equals = assignment.find('='); equals != std::string_view::npos; equals = assignment.find('=', equals + 1)) {
+    for (std::size_t equals = assignment.find('='); equals != std::string_view::npos;
+         equals = assignment.find('=', equals + 1)) {
         const std::string_view target = assignment.substr(0, equals);
-        for (std::size_t dot = target.rfind('.'); dot != std::string_view::npos && dot > 0; dot = target.rfind('.', dot - 1)) {
-            const std::string_view node = target.substr(0, dot), param = target.substr(dot + 1), value = assignment.substr(equals + 1);
+        for (std::size_t dot = target.rfind('.'); dot != std::string_view::npos && dot > 0;
+             dot = target.rfind('.', dot - 1)) {
+            const std::string_view node = target.substr(0, dot), param = target.substr(dot + 1),
+                                   value = assignment.substr(equals + 1);
             if (first_node.empty()) {
                 first_node = node;
                 first_param = param;
@@ -98,7 +114,8 @@ bool SceneGraph::assign(std::string_view assignment, Diagnostics& diagnostics) {
         }
     }
     if (first_node.empty()) {
-        diagnostics.error(Code::AssSyntax, "\"" + std::string(assignment) + "\" is no assignment", {}, "write NODE.PARAM=VALUE");
+        diagnostics.error(Code::AssSyntax, "\"" + std::string(assignment) + "\" is no assignment",
+                          {}, "write NODE.PARAM=VALUE");
         return false;
     }
     return set(Name(first_node), first_param, first_value, diagnostics);
@@ -107,17 +124,22 @@ bool SceneGraph::assign(std::string_view assignment, Diagnostics& diagnostics) {
 NodeInstance* SceneGraph::add(Name type, Name name, Diagnostics& diagnostics) {
     const NodeType* found = registry_->find(type);
     if (found == nullptr) {
-        diagnostics.error(Code::UnknownNode, "there is no node type \"" + type.str() + "\"", {}, did_you_mean(type.view(), registry_->names()));
+        diagnostics.error(Code::UnknownNode, "there is no node type \"" + type.str() + "\"", {},
+                          did_you_mean(type.view(), registry_->names()));
         return nullptr;
     }
     if (!name.empty() && find(name) != nullptr) {
-        diagnostics.error(Code::DuplicateName, "the scene has a node \"" + name.str() + "\" already", find(name)->where());
+        diagnostics.error(Code::DuplicateName,
+                          "the scene has a node \"" + name.str() + "\" already",
+                          find(name)->where());
         return nullptr;
     }
-    return GraphEditor(*this, UnknownPolicy::Error, diagnostics).add(*found, name, !name.empty(), {});
+    return GraphEditor(*this, UnknownPolicy::Error, diagnostics)
+        .add(*found, name, !name.empty(), {});
 }
 
-SceneGraph build_graph(const Document& document, const Registry& registry, const BuildOptions& options, Diagnostics& diagnostics) {
+SceneGraph build_graph(const Document& document, const Registry& registry,
+                       const BuildOptions& options, Diagnostics& diagnostics) {
     SceneGraph graph(registry);
     GraphEditor(graph, options.unknown, diagnostics).build(document);
     return graph;

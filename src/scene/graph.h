@@ -30,25 +30,27 @@ namespace lightsieve {
 /// In a node's list, links of whole parameters come before links of elements, and those before links of components:
 /// applied in order, the more special one wins.
 struct Link {
-    const ParamInfo* param = nullptr;       ///< of the node that has the link
-    std::int32_t element = -1;              ///< of an array parameter; -1: the parameter is no array
-    std::int32_t component = -1;            ///< 0..3: only this channel of the parameter; -1: all
-    const NodeInstance* source = nullptr;   ///< never null; its type has an output
-    std::int32_t source_component = -1;     ///< 0..3: this channel of the source's value; -1: all
-    SourceSpan where;                       ///< the value in the scene file
+    const ParamInfo* param = nullptr;  ///< of the node that has the link
+    std::int32_t element = -1;         ///< of an array parameter; -1: the parameter is no array
+    std::int32_t component = -1;       ///< 0..3: only this channel of the parameter; -1: all
+    const NodeInstance* source = nullptr;  ///< never null; its type has an output
+    std::int32_t source_component = -1;    ///< 0..3: this channel of the source's value; -1: all
+    SourceSpan where;                      ///< the value in the scene file
 };
 
 /// Values that a shape carries for shaders, beside its parameters.
 struct UserData {
     Name name;
     UserDataClass user_class{};
-    bool is_array = false;          ///< declared ARRAY: each value is an array (only Constant ones occur)
-    ParamType type{};               ///< Bool, Byte, Int, UInt, Float, Rgb, Rgba, Vector, Vector2, String, Matrix or Node
-    std::uint32_t n = 0;            ///< values a motion key; 0 if declared but never given
-    std::uint32_t n_keys = 1;       ///< motion keys
-    const void* data = nullptr;     ///< n * n_keys values as `value.h` lays them out; owned by the node
-    Array<std::uint32_t> indices;   ///< for Indexed: one a face corner
-    SourceSpan where;               ///< of the values, or of the declaration
+    bool is_array = false;  ///< declared ARRAY: each value is an array (only Constant ones occur)
+    ParamType
+        type{};  ///< Bool, Byte, Int, UInt, Float, Rgb, Rgba, Vector, Vector2, String, Matrix or Node
+    std::uint32_t n = 0;       ///< values a motion key; 0 if declared but never given
+    std::uint32_t n_keys = 1;  ///< motion keys
+    const void* data =
+        nullptr;  ///< n * n_keys values as `value.h` lays them out; owned by the node
+    Array<std::uint32_t> indices;  ///< for Indexed: one a face corner
+    SourceSpan where;              ///< of the values, or of the declaration
     /// The values as T, which must be the C++ type of `type` (Color for Rgb, ...).
     template <class T>
     [[nodiscard]] std::span<const T> values() const {
@@ -89,7 +91,8 @@ class NodeInstance {
     [[nodiscard]] const T* find(Name param) const {
         const ParamInfo* info = type_.find(param);
         if (info == nullptr || !holds<T>(*info)) return nullptr;
-        return reinterpret_cast<const T*>(static_cast<const std::byte*>(static_cast<const void*>(block_)) + info->offset);
+        return reinterpret_cast<const T*>(
+            static_cast<const std::byte*>(static_cast<const void*>(block_)) + info->offset);
     }
 
     /// Whether the file (or an edit) gives the parameter a value or a link.
@@ -118,9 +121,13 @@ class NodeInstance {
         using namespace describe_detail;
         if constexpr (IsArray<T>::value) {
             using Element = typename IsArray<T>::Element;
-            return info.is_array && (param_type<Element>() == info.type || (std::is_same_v<Element, std::int32_t> && info.type == ParamType::Enum));
+            return info.is_array &&
+                   (param_type<Element>() == info.type ||
+                    (std::is_same_v<Element, std::int32_t> && info.type == ParamType::Enum));
         } else {
-            return !info.is_array && (param_type<T>() == info.type || (std::is_same_v<T, std::int32_t> && info.type == ParamType::Enum));
+            return !info.is_array &&
+                   (param_type<T>() == info.type ||
+                    (std::is_same_v<T, std::int32_t> && info.type == ParamType::Enum));
         }
     }
 
@@ -132,9 +139,10 @@ class NodeInstance {
     SourceSpan where_;
     bool named_ = true;
     std::byte* block_ = nullptr;
-    std::vector<SourceSpan> written_;  ///< a parameter: where its value was written; unknown: never
-    std::vector<bool> set_;            ///< a parameter: whether it was given
-    std::vector<Buffer> arrays_;       ///< a parameter: what its Array points to, if the file gave it
+    std::vector<SourceSpan>
+        written_;                 ///< a parameter: where its value was written; unknown: never
+    std::vector<bool> set_;       ///< a parameter: whether it was given
+    std::vector<Buffer> arrays_;  ///< a parameter: what its Array points to, if the file gave it
     std::vector<Link> links_;
     std::vector<UserData> user_data_;
     std::vector<Buffer> user_arrays_;
@@ -163,7 +171,9 @@ class SceneGraph {
     explicit SceneGraph(const Registry& registry);
 
     /// All nodes in file order.
-    [[nodiscard]] const std::vector<std::unique_ptr<NodeInstance>>& nodes() const { return nodes_; }
+    [[nodiscard]] const std::vector<std::unique_ptr<NodeInstance>>& nodes() const {
+        return nodes_;
+    }
     /// The node of that name, or null. `options` is found as "options".
     [[nodiscard]] const NodeInstance* find(Name name) const;
     [[nodiscard]] NodeInstance* find(Name name);
@@ -200,7 +210,8 @@ class SceneGraph {
 };
 
 /// Makes the graph of a document. Never fails as a whole: what is wrong is reported and left at its default.
-[[nodiscard]] SceneGraph build_graph(const Document& document, const Registry& registry, const BuildOptions& options, Diagnostics& diagnostics);
+[[nodiscard]] SceneGraph build_graph(const Document& document, const Registry& registry,
+                                     const BuildOptions& options, Diagnostics& diagnostics);
 
 /// All nodes with the parameters that were set, links and user data, one a line; for tests and curious people.
 [[nodiscard]] std::string dump(const SceneGraph& graph);

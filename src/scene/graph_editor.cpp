@@ -30,7 +30,9 @@ constexpr std::array kOldParams{
 constexpr std::size_t kMaxCompared = 1000000;
 
 bool is_old_param(Name type, Name param) {
-    return std::any_of(kOldParams.begin(), kOldParams.end(), [&](const OldParam& old) { return old.param == param.view() && (old.type.empty() || old.type == type.view()); });
+    return std::any_of(kOldParams.begin(), kOldParams.end(), [&](const OldParam& old) {
+        return old.param == param.view() && (old.type.empty() || old.type == type.view());
+    });
 }
 
 bool is_reference(ParamType type) { return type == ParamType::Node || type == ParamType::Closure; }
@@ -41,7 +43,8 @@ AnyArray& array_at(std::byte* address) { return *reinterpret_cast<AnyArray*>(add
 
 std::vector<std::string> param_names(const NodeType& type) {
     std::vector<std::string> names;
-    for (const ParamInfo& info : type.params) names.push_back(info.name.str());
+    for (const ParamInfo& info : type.params)
+        names.push_back(info.name.str());
     return names;
 }
 
@@ -58,10 +61,17 @@ int speciality(const Link& link) { return link.component >= 0 ? 2 : link.element
 }  // namespace
 
 GraphEditor::GraphEditor(SceneGraph& graph, UnknownPolicy unknown, Diagnostics& diagnostics)
-    : graph_(graph), unknown_(unknown), diagnostics_(&diagnostics), all_diagnostics_(diagnostics) {}
+    : graph_(graph),
+      unknown_(unknown),
+      diagnostics_(&diagnostics),
+      all_diagnostics_(diagnostics) {}
 
-std::size_t GraphEditor::index_of(const NodeInstance& node, const ParamInfo& info) { return static_cast<std::size_t>(&info - node.type().params.data()); }
-std::byte* GraphEditor::address(NodeInstance& node, const ParamInfo& info) { return node.block_ + info.offset; }
+std::size_t GraphEditor::index_of(const NodeInstance& node, const ParamInfo& info) {
+    return static_cast<std::size_t>(&info - node.type().params.data());
+}
+std::byte* GraphEditor::address(NodeInstance& node, const ParamInfo& info) {
+    return node.block_ + info.offset;
+}
 
 // ---- nodes ----
 
@@ -69,14 +79,17 @@ void GraphEditor::build(const Document& document) {
     std::vector<std::pair<const NodeBlock*, NodeInstance*>> read;
     add_nodes(document, read);
     // All nodes exist before the first link is read: links point forward and backward.
-    for (const auto& [block, node] : read) read_node(document, *block, *node);
+    for (const auto& [block, node] : read)
+        read_node(document, *block, *node);
     report_repeated();
     std::vector<NodeInstance*> all;
-    for (const auto& node : graph_.nodes_) all.push_back(node.get());
+    for (const auto& node : graph_.nodes_)
+        all.push_back(node.get());
     check_cycles(all, true);
 }
 
-void GraphEditor::add_nodes(const Document& document, std::vector<std::pair<const NodeBlock*, NodeInstance*>>& read) {
+void GraphEditor::add_nodes(const Document& document,
+                            std::vector<std::pair<const NodeBlock*, NodeInstance*>>& read) {
     for (const NodeBlock& block : document.nodes()) {
         const SourceSpan where = document.span(block.type_range);
         const NodeType* type = graph_.registry_->find(block.type);
@@ -84,8 +97,15 @@ void GraphEditor::add_nodes(const Document& document, std::vector<std::pair<cons
             graph_.skipped_.push_back({block.type, block.name, where});
             if (!block.name.empty()) graph_.skipped_types_.emplace(block.name, block.type);
             if (unknown_ == UnknownPolicy::Ignore) continue;
-            Error error{Code::UnknownNode, fmt::format("node type \"{}\" is not known: it is skipped", block.type.view()), where, {}, {}, unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning};
-            if (!repeated_index_.contains("node " + block.type.str())) error.hint = did_you_mean(block.type.view(), graph_.registry_->names());
+            Error error{
+                Code::UnknownNode,
+                fmt::format("node type \"{}\" is not known: it is skipped", block.type.view()),
+                where,
+                {},
+                {},
+                unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning};
+            if (!repeated_index_.contains("node " + block.type.str()))
+                error.hint = did_you_mean(block.type.view(), graph_.registry_->names());
             repeated("node " + block.type.str(), std::move(error));
             continue;
         }
@@ -96,7 +116,13 @@ void GraphEditor::add_nodes(const Document& document, std::vector<std::pair<cons
         }
         const NodeInstance* twin = block.name.empty() ? nullptr : graph_.find(block.name);
         if (twin != nullptr) {
-            Error error{Code::DuplicateName, fmt::format("two nodes are named \"{}\": links go to the first", block.name.view()), where, {}, {}, Severity::Warning};
+            Error error{Code::DuplicateName,
+                        fmt::format("two nodes are named \"{}\": links go to the first",
+                                    block.name.view()),
+                        where,
+                        {},
+                        {},
+                        Severity::Warning};
             error.notes.push_back({"the first is", twin->where()});
             diagnostics_->add(std::move(error));
         }
@@ -106,7 +132,9 @@ void GraphEditor::add_nodes(const Document& document, std::vector<std::pair<cons
 
 NodeInstance* GraphEditor::add(const NodeType& type, Name name, bool named, SourceSpan where) {
     const bool is_options = type.kind == NodeKind::Options;
-    if (!named) name = is_options ? Name("options") : Name(fmt::format("<{} {}>", type.name.view(), graph_.nodes_.size()));
+    if (!named)
+        name = is_options ? Name("options")
+                          : Name(fmt::format("<{} {}>", type.name.view(), graph_.nodes_.size()));
     auto node = std::make_unique<NodeInstance>(type, name, std::move(where));
     node->named_ = named;
     if (named || is_options) graph_.names_.emplace(name, node.get());
@@ -123,22 +151,32 @@ void GraphEditor::read_node(const Document& document, const NodeBlock& block, No
     given_.assign(node.type().params.size(), false);
     for (const ParamText& param : block.params) {
         if (param.name.view() == "name" && param.element < 0 && param.component < 0) continue;
-        read_param(node, {&param, document.sources()[param.name_range.source], document.sources()[param.value.range.source]});
+        read_param(node, {&param, document.sources()[param.name_range.source],
+                          document.sources()[param.value.range.source]});
     }
     check_user_data(node);
 }
 
 // ---- user data ----
 
-void GraphEditor::declare_user_data(const Document& document, const NodeBlock& block, NodeInstance& node) {
+void GraphEditor::declare_user_data(const Document& document, const NodeBlock& block,
+                                    NodeInstance& node) {
     for (const DeclareText& declare : block.declares) {
         const SourceSpan where = document.span(declare.statement);
         if (node.type().find(declare.name) != nullptr) {
-            diagnostics_->warning(Code::UserData, fmt::format("{} has a parameter \"{}\" of its own: the declaration is ignored", node.type().name.view(), declare.name.view()), where);
+            diagnostics_->warning(
+                Code::UserData,
+                fmt::format("{} has a parameter \"{}\" of its own: the declaration is ignored",
+                            node.type().name.view(), declare.name.view()),
+                where);
             continue;
         }
         if (node.find_user_data(declare.name) != nullptr) {
-            diagnostics_->warning(Code::UserData, fmt::format("user data \"{}\" is declared twice: the first declaration counts", declare.name.view()), where);
+            diagnostics_->warning(
+                Code::UserData,
+                fmt::format("user data \"{}\" is declared twice: the first declaration counts",
+                            declare.name.view()),
+                where);
             continue;
         }
         UserData data;
@@ -156,8 +194,10 @@ bool GraphEditor::read_user_data(NodeInstance& node, const Statement& statement)
     UserData* data = nullptr;
     bool indices = false;
     for (UserData& candidate : node.user_data_) {
-        if (candidate.name.view() == name) data = &candidate;
-        else if (data == nullptr && name.size() == candidate.name.view().size() + 4 && name.starts_with(candidate.name.view()) && name.ends_with("idxs")) {
+        if (candidate.name.view() == name)
+            data = &candidate;
+        else if (data == nullptr && name.size() == candidate.name.view().size() + 4 &&
+                 name.starts_with(candidate.name.view()) && name.ends_with("idxs")) {
             data = &candidate;
             indices = true;
         }
@@ -165,13 +205,20 @@ bool GraphEditor::read_user_data(NodeInstance& node, const Statement& statement)
     if (data == nullptr) return false;
     if (data->name.view() == name) indices = false;
     const SourceSpan where = statement.value_span();
-    const std::optional<std::string> text = single_text(statement.param->value, *statement.value_source);
-    if (text && !indices && data->type != ParamType::String && data->type != ParamType::Node && !(data->type == ParamType::Bool && parse_bool(*text))) {
-        diagnostics_->warning(Code::UserData, fmt::format("user data \"{}\" cannot be linked: \"{}\" is ignored", name, *text), where);
+    const std::optional<std::string> text =
+        single_text(statement.param->value, *statement.value_source);
+    if (text && !indices && data->type != ParamType::String && data->type != ParamType::Node &&
+        !(data->type == ParamType::Bool && parse_bool(*text))) {
+        diagnostics_->warning(
+            Code::UserData,
+            fmt::format("user data \"{}\" cannot be linked: \"{}\" is ignored", name, *text),
+            where);
         return true;
     }
-    const ReadTarget target{indices ? ParamType::UInt : data->type, true, nullptr, fmt::format("user data \"{}\"", name)};
-    std::optional<TypedValues> values = reader(*diagnostics_, true).read(statement.param->value, statement.value_source, target);
+    const ReadTarget target{indices ? ParamType::UInt : data->type, true, nullptr,
+                            fmt::format("user data \"{}\"", name)};
+    std::optional<TypedValues> values =
+        reader(*diagnostics_, true).read(statement.param->value, statement.value_source, target);
     if (!values) return true;
     node.user_arrays_.push_back(std::move(values->data));
     const std::byte* bytes = node.user_arrays_.back().get();
@@ -184,7 +231,11 @@ bool GraphEditor::read_user_data(NodeInstance& node, const Statement& statement)
     data->n_keys = values->n_keys;
     data->where = where;
     if (data->user_class == UserDataClass::Constant && !data->is_array && data->n > 1)
-        diagnostics_->warning(Code::UserData, fmt::format("constant user data \"{}\" has {} values: the first is used", name, data->n), where);
+        diagnostics_->warning(
+            Code::UserData,
+            fmt::format("constant user data \"{}\" has {} values: the first is used", name,
+                        data->n),
+            where);
     return true;
 }
 
@@ -193,12 +244,19 @@ void GraphEditor::check_user_data(const NodeInstance& node) {
         if (data.user_class != UserDataClass::Indexed || data.n == 0) continue;
         const std::string idxs = data.name.str() + "idxs";
         if (data.indices.empty()) {
-            diagnostics_->warning(Code::UserData, fmt::format("indexed user data \"{}\" has no \"{}\"", data.name.view(), idxs), data.where);
+            diagnostics_->warning(
+                Code::UserData,
+                fmt::format("indexed user data \"{}\" has no \"{}\"", data.name.view(), idxs),
+                data.where);
             continue;
         }
         const auto all = data.indices.first_key();
         const std::uint32_t highest = *std::max_element(all.begin(), all.end());
-        if (highest >= data.n) diagnostics_->error(Code::UserData, fmt::format("\"{}\" asks for value {} of \"{}\", which has {}", idxs, highest, data.name.view(), data.n), data.where);
+        if (highest >= data.n)
+            diagnostics_->error(Code::UserData,
+                                fmt::format("\"{}\" asks for value {} of \"{}\", which has {}",
+                                            idxs, highest, data.name.view(), data.n),
+                                data.where);
     }
 }
 
@@ -225,35 +283,57 @@ void GraphEditor::unknown_param(const NodeInstance& node, const Statement& state
     ++graph_.n_unknown_params_;
     if (unknown_ == UnknownPolicy::Ignore) return;
     const std::string key = fmt::format("param {}.{}", type.name.view(), name.view());
-    Error error{Code::UnknownParam, fmt::format("{} has no parameter \"{}\"", type.name.view(), name.view()), statement.name_span(), {}, {}, unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning};
+    Error error{Code::UnknownParam,
+                fmt::format("{} has no parameter \"{}\"", type.name.view(), name.view()),
+                statement.name_span(),
+                {},
+                {},
+                unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning};
     if (!repeated_index_.contains(key)) {
         const std::string guess = did_you_mean(name.view(), param_names(type));
-        error.hint = fmt::format("{}`lightsieve nodes {}` lists all of them", guess.empty() ? "" : guess + "   ", type.name.view());
-        error.notes.push_back({fmt::format("node \"{}\" starts", node.name().view()), node.where()});
+        error.hint = fmt::format("{}`lightsieve nodes {}` lists all of them",
+                                 guess.empty() ? "" : guess + "   ", type.name.view());
+        error.notes.push_back(
+            {fmt::format("node \"{}\" starts", node.name().view()), node.where()});
     }
     repeated(key, std::move(error));
 }
 
-bool GraphEditor::check_suffixes(const NodeInstance& node, const ParamInfo& info, const Statement& statement) {
+bool GraphEditor::check_suffixes(const NodeInstance& node, const ParamInfo& info,
+                                 const Statement& statement) {
     const ParamText& param = *statement.param;
     if (param.element >= 0 && !info.is_array) {
-        diagnostics_->error(Code::WrongType, fmt::format("{}.{} is no array: it has no elements", node.type().name.view(), info.name.view()), statement.name_span());
+        diagnostics_->error(Code::WrongType,
+                            fmt::format("{}.{} is no array: it has no elements",
+                                        node.type().name.view(), info.name.view()),
+                            statement.name_span());
         return false;
     }
     if (param.component < 0) return true;
-    const bool has_components = info.type == ParamType::Rgb || info.type == ParamType::Rgba || info.type == ParamType::Vector || info.type == ParamType::Vector2;
-    if (!has_components || static_cast<std::size_t>(param.component) >= component_count(info.type)) {
-        diagnostics_->error(Code::WrongType, fmt::format("{}.{} is {}: it has no such component", node.type().name.view(), info.name.view(), type_text(info.type)), statement.name_span());
+    const bool has_components = info.type == ParamType::Rgb || info.type == ParamType::Rgba ||
+                                info.type == ParamType::Vector || info.type == ParamType::Vector2;
+    if (!has_components ||
+        static_cast<std::size_t>(param.component) >= component_count(info.type)) {
+        diagnostics_->error(
+            Code::WrongType,
+            fmt::format("{}.{} is {}: it has no such component", node.type().name.view(),
+                        info.name.view(), type_text(info.type)),
+            statement.name_span());
         return false;
     }
     if (info.is_array && param.element < 0) {
-        diagnostics_->error(Code::WrongType, fmt::format("{}.{} is an array: a component needs an element", node.type().name.view(), info.name.view()), statement.name_span(), fmt::format("for example {}[0].r", info.name.view()));
+        diagnostics_->error(Code::WrongType,
+                            fmt::format("{}.{} is an array: a component needs an element",
+                                        node.type().name.view(), info.name.view()),
+                            statement.name_span(),
+                            fmt::format("for example {}[0].r", info.name.view()));
         return false;
     }
     return true;
 }
 
-void GraphEditor::read_known(NodeInstance& node, const ParamInfo& info, const Statement& statement) {
+void GraphEditor::read_known(NodeInstance& node, const ParamInfo& info,
+                             const Statement& statement) {
     const ParamText& param = *statement.param;
     if (!check_suffixes(node, info, statement)) return;
     const std::size_t index = index_of(node, info);
@@ -263,11 +343,14 @@ void GraphEditor::read_known(NodeInstance& node, const ParamInfo& info, const St
     if (text && reads_as_link(info, param, *text)) {
         add_link(node, info, statement, *text);
     } else {
-        ReadTarget target{info.type, info.is_array && param.element < 0, &info, label_of(node.type(), param)};
+        ReadTarget target{info.type, info.is_array && param.element < 0, &info,
+                          label_of(node.type(), param)};
         if (param.component >= 0) target.type = ParamType::Float;
-        std::optional<TypedValues> values = reader(*diagnostics_, false).read(param.value, statement.value_source, target);
+        std::optional<TypedValues> values =
+            reader(*diagnostics_, false).read(param.value, statement.value_source, target);
         if (!values) return;
-        if (param.element >= 0 && !grow_array(node, info, param.element, statement.name_span())) return;
+        if (param.element >= 0 && !grow_array(node, info, param.element, statement.name_span()))
+            return;
         store(node, info, param, std::move(*values));
         if (whole) given_[index] = true;
     }
@@ -276,16 +359,22 @@ void GraphEditor::read_known(NodeInstance& node, const ParamInfo& info, const St
     check_pending(node, info, statement);
 }
 
-void GraphEditor::check_duplicate(const NodeInstance& node, const ParamInfo& info, const Statement& statement) {
+void GraphEditor::check_duplicate(const NodeInstance& node, const ParamInfo& info,
+                                  const Statement& statement) {
     const ParamText& param = *statement.param;
     const bool whole = param.element < 0 && param.component < 0;
     if (!whole || !given_[index_of(node, info)]) return;
     const std::optional<std::string> text = single_text(param.value, *statement.value_source);
-    if (text && reads_as_link(info, param, *text)) return;  // a value and a link may stand side by side
-    diagnostics_->lint(Code::DuplicateParam, fmt::format("{}.{} is given twice", node.type().name.view(), info.name.view()), statement.name_span(), "the later value counts");
+    if (text && reads_as_link(info, param, *text))
+        return;  // a value and a link may stand side by side
+    diagnostics_->lint(
+        Code::DuplicateParam,
+        fmt::format("{}.{} is given twice", node.type().name.view(), info.name.view()),
+        statement.name_span(), "the later value counts");
 }
 
-void GraphEditor::check_pending(const NodeInstance& node, const ParamInfo& info, const Statement& statement) {
+void GraphEditor::check_pending(const NodeInstance& node, const ParamInfo& info,
+                                const Statement& statement) {
     if (!info.pending) return;
     const std::byte* value = node.block_ + info.offset;
     const std::byte* standard = node.type().default_block.data() + info.offset;
@@ -294,16 +383,23 @@ void GraphEditor::check_pending(const NodeInstance& node, const ParamInfo& info,
         const auto& a = *reinterpret_cast<const AnyArray*>(value);
         const auto& b = *reinterpret_cast<const AnyArray*>(standard);
         const std::size_t bytes = std::size_t{a.n} * a.n_keys * type_size(info.type);
-        same = a.n == b.n && a.n_keys == b.n_keys && (bytes == 0 || std::memcmp(a.data, b.data, bytes) == 0);
+        same = a.n == b.n && a.n_keys == b.n_keys &&
+               (bytes == 0 || std::memcmp(a.data, b.data, bytes) == 0);
     } else {
         same = std::memcmp(value, standard, type_size(info.type)) == 0;
     }
     if (same && !node.is_linked(info.name)) return;
     const std::string name = fmt::format("{}.{}", node.type().name.view(), info.name.view());
-    repeated("pending " + name, {Code::ParamPending, fmt::format("{} is not supported yet: it has no effect", name), statement.value_span(), {}, {}, Severity::Warning});
+    repeated("pending " + name, {Code::ParamPending,
+                                 fmt::format("{} is not supported yet: it has no effect", name),
+                                 statement.value_span(),
+                                 {},
+                                 {},
+                                 Severity::Warning});
 }
 
-void GraphEditor::store(NodeInstance& node, const ParamInfo& info, const ParamText& param, TypedValues values) {
+void GraphEditor::store(NodeInstance& node, const ParamInfo& info, const ParamText& param,
+                        TypedValues values) {
     if (info.is_array && param.element < 0) {
         replace_array(node, info, std::move(values));
         return;
@@ -311,7 +407,9 @@ void GraphEditor::store(NodeInstance& node, const ParamInfo& info, const ParamTe
     if (values.n == 0) return;  // an array of nothing for one value: the default stays
     std::byte* at = address(node, info);
     // grow_array has made the array the instance's own.
-    if (param.element >= 0) at = node.arrays_[index_of(node, info)].get() + static_cast<std::size_t>(param.element) * type_size(info.type);
+    if (param.element >= 0)
+        at = node.arrays_[index_of(node, info)].get() +
+             static_cast<std::size_t>(param.element) * type_size(info.type);
     std::size_t size = type_size(info.type);
     if (param.component >= 0) {
         at += static_cast<std::size_t>(param.component) * sizeof(float);
@@ -327,12 +425,16 @@ void GraphEditor::replace_array(NodeInstance& node, const ParamInfo& info, Typed
     array_at(address(node, info)) = {buffer.get(), values.n, values.n_keys};
 }
 
-bool GraphEditor::grow_array(NodeInstance& node, const ParamInfo& info, std::int64_t element, const SourceSpan& where) {
+bool GraphEditor::grow_array(NodeInstance& node, const ParamInfo& info, std::int64_t element,
+                             const SourceSpan& where) {
     const AnyArray old = array_at(address(node, info));
     const bool inside = element < std::int64_t{old.n};
     if (inside && node.arrays_[index_of(node, info)]) return true;
     if (!inside && (element >= kMaxLinkedElement || old.n_keys > 1)) {
-        diagnostics_->error(Code::BadValue, fmt::format("{}.{} has {} elements: there is none with number {}", node.type().name.view(), info.name.view(), old.n, element), where);
+        diagnostics_->error(Code::BadValue,
+                            fmt::format("{}.{} has {} elements: there is none with number {}",
+                                        node.type().name.view(), info.name.view(), old.n, element),
+                            where);
         return false;
     }
     const std::size_t size = type_size(info.type);
@@ -346,12 +448,18 @@ bool GraphEditor::grow_array(NodeInstance& node, const ParamInfo& info, std::int
 }
 
 ParamReader GraphEditor::reader(Diagnostics& diagnostics, bool quiet_references) {
-    return ParamReader([this, quiet_references](const std::string& name, const SourceSpan& where) -> const NodeInstance* { return quiet_references ? graph_.find(Name(name)) : find_node(name, where); }, run_bytes_, diagnostics);
+    return ParamReader(
+        [this, quiet_references](const std::string& name,
+                                 const SourceSpan& where) -> const NodeInstance* {
+            return quiet_references ? graph_.find(Name(name)) : find_node(name, where);
+        },
+        run_bytes_, diagnostics);
 }
 
 // ---- links ----
 
-bool GraphEditor::reads_as_link(const ParamInfo& info, const ParamText& param, const std::string& text) const {
+bool GraphEditor::reads_as_link(const ParamInfo& info, const ParamText& param,
+                                const std::string& text) const {
     if (info.type == ParamType::String || is_reference(info.type)) return false;
     if (param.component >= 0) return true;
     if (info.type == ParamType::Bool && parse_bool(text)) return false;
@@ -361,39 +469,60 @@ bool GraphEditor::reads_as_link(const ParamInfo& info, const ParamText& param, c
     return !few_words || text.empty() || text == "NULL" || graph_.find(Name(text)) != nullptr;
 }
 
-void GraphEditor::add_link(NodeInstance& node, const ParamInfo& info, const Statement& statement, const std::string& text) {
+void GraphEditor::add_link(NodeInstance& node, const ParamInfo& info, const Statement& statement,
+                           const std::string& text) {
     const ParamText& param = *statement.param;
     if (text.empty() || text == "NULL") return;  // no node: the value stays
     const SourceSpan where = statement.value_span();
     const Found found = find_source(text, where);
     if (found.node == nullptr || !link_fits(node, info, found, where)) return;
-    Link link{&info, static_cast<std::int32_t>(std::min(param.element, kMaxLinkedElement)), param.component, found.node, found.component, where};
+    Link link{
+        &info,           static_cast<std::int32_t>(std::min(param.element, kMaxLinkedElement)),
+        param.component, found.node,
+        found.component, where};
     // A name in the place of an array is a link of its only element.
     if (info.is_array && link.element < 0) link.element = 0;
-    if (info.is_array && !grow_array(node, info, info.is_array && param.element < 0 ? 0 : param.element, statement.name_span())) return;
-    std::erase_if(node.links_, [&](const Link& old) { return old.param == link.param && old.element == link.element && old.component == link.component; });
-    const auto place = std::find_if(node.links_.begin(), node.links_.end(), [&](const Link& other) { return speciality(other) > speciality(link); });
+    if (info.is_array &&
+        !grow_array(node, info, info.is_array && param.element < 0 ? 0 : param.element,
+                    statement.name_span()))
+        return;
+    std::erase_if(node.links_, [&](const Link& old) {
+        return old.param == link.param && old.element == link.element &&
+               old.component == link.component;
+    });
+    const auto place =
+        std::find_if(node.links_.begin(), node.links_.end(),
+                     [&](const Link& other) { return speciality(other) > speciality(link); });
     node.links_.insert(place, std::move(link));
 }
 
-bool GraphEditor::link_fits(const NodeInstance& node, const ParamInfo& info, const Found& source, const SourceSpan& where) {
+bool GraphEditor::link_fits(const NodeInstance& node, const ParamInfo& info, const Found& source,
+                            const SourceSpan& where) {
     const NodeType& type = source.node->type();
     const std::string target = fmt::format("{}.{}", node.type().name.view(), info.name.view());
     if (type.output == OutputType::None) {
-        diagnostics_->error(Code::LinkType, fmt::format("{} is linked to \"{}\", a {}, which gives no value", target, source.node->name().view(), type.name.view()), where);
+        diagnostics_->error(Code::LinkType,
+                            fmt::format("{} is linked to \"{}\", a {}, which gives no value",
+                                        target, source.node->name().view(), type.name.view()),
+                            where);
         return false;
     }
     if (info.type == ParamType::Matrix) {
-        diagnostics_->warning(Code::LinkType, fmt::format("{} is a MATRIX: links to it are ignored", target), where);
+        diagnostics_->warning(
+            Code::LinkType, fmt::format("{} is a MATRIX: links to it are ignored", target), where);
         return false;
     }
     if (type.output == OutputType::Closure) {
-        diagnostics_->warning(Code::LinkType, fmt::format("{} wants a {}, but \"{}\", a {}, gives a closure: the link is ignored", target, type_text(info.type), source.node->name().view(), type.name.view()), where);
+        diagnostics_->warning(
+            Code::LinkType,
+            fmt::format("{} wants a {}, but \"{}\", a {}, gives a closure: the link is ignored",
+                        target, type_text(info.type), source.node->name().view(),
+                        type.name.view()),
+            where);
         return false;
     }
     return true;
 }
-
 
 GraphEditor::Found GraphEditor::find_source(const std::string& text, const SourceSpan& where) {
     if (const NodeInstance* node = graph_.find(Name(text))) return {node, -1};
@@ -406,27 +535,38 @@ GraphEditor::Found GraphEditor::find_source(const std::string& text, const Sourc
     const std::string name = text.substr(0, dot), suffix = text.substr(dot + 1);
     const NodeInstance* node = graph_.find(Name(name));
     if (node == nullptr) {
-        missing_node(graph_.skipped_types_.contains(Name(name)) ? name : text, where, Severity::Error);
+        missing_node(graph_.skipped_types_.contains(Name(name)) ? name : text, where,
+                     Severity::Error);
         return {};
     }
     const std::int8_t component = parse_component(suffix);
     if (component >= 0) return {node, component};
-    diagnostics_->error(Code::UnknownReference, fmt::format("\"{}\", a {}, has no output \"{}\"", name, node->type().name.view(), suffix), where, "components are .r .g .b .a or .x .y .z");
+    diagnostics_->error(
+        Code::UnknownReference,
+        fmt::format("\"{}\", a {}, has no output \"{}\"", name, node->type().name.view(), suffix),
+        where, "components are .r .g .b .a or .x .y .z");
     return {};
 }
 
 const NodeInstance* GraphEditor::find_node(const std::string& name, const SourceSpan& where) {
     if (const NodeInstance* node = graph_.find(Name(name))) return node;
     // Arnold renders shapes whose shader is missing, and exported scenes have such: a value that is missing is worse.
-    missing_node(name, where, unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning);
+    missing_node(name, where,
+                 unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning);
     return nullptr;
 }
 
-void GraphEditor::missing_node(const std::string& name, const SourceSpan& where, Severity severity) {
+void GraphEditor::missing_node(const std::string& name, const SourceSpan& where,
+                               Severity severity) {
     const auto skipped = graph_.skipped_types_.find(Name(name));
     if (skipped != graph_.skipped_types_.end()) {
         if (unknown_ != UnknownPolicy::Ignore)
-            diagnostics_->warning(Code::UnknownReference, fmt::format("\"{}\" is of the unknown node type \"{}\": the reference to it is ignored", name, skipped->second.view()), where);
+            diagnostics_->warning(
+                Code::UnknownReference,
+                fmt::format(
+                    "\"{}\" is of the unknown node type \"{}\": the reference to it is ignored",
+                    name, skipped->second.view()),
+                where);
         return;
     }
     std::string hint;
@@ -434,29 +574,39 @@ void GraphEditor::missing_node(const std::string& name, const SourceSpan& where,
     if (n_compared_ < kMaxCompared) {
         n_compared_ += graph_.names_.size();
         std::vector<std::string> names;
-        for (const auto& [known, node] : graph_.names_) names.push_back(known.str());
+        for (const auto& [known, node] : graph_.names_)
+            names.push_back(known.str());
         hint = did_you_mean(name, names);
     }
-    diagnostics_->add({Code::UnknownReference, fmt::format("the scene has no node \"{}\"", name), where, hint, {}, severity});
+    diagnostics_->add({Code::UnknownReference,
+                       fmt::format("the scene has no node \"{}\"", name),
+                       where,
+                       hint,
+                       {},
+                       severity});
 }
 
 // ---- edits ----
 
-std::optional<ValueText> GraphEditor::lex_edit(const ParamInfo& info, std::string_view param, std::string_view value, std::shared_ptr<const SourceText>& source) {
+std::optional<ValueText> GraphEditor::lex_edit(const ParamInfo& info, std::string_view param,
+                                               std::string_view value,
+                                               std::shared_ptr<const SourceText>& source) {
     const std::string name = fmt::format("<{}>", param);
     const auto lex = [&](std::string text, Diagnostics& report) -> std::optional<ValueText> {
         source = std::make_shared<const SourceText>(SourceText{name, std::move(text)});
         AssLexer lexer(source->text);
         std::optional<ValueText> read = lex_value(lexer, source, 0, param, report);
         if (!read || lexer.peek() == '\0') return read;
-        report.error(Code::AssSyntax, "one value is expected", {source, lexer.position(), 1}, "a text with blanks needs quotes");
+        report.error(Code::AssSyntax, "one value is expected", {source, lexer.position(), 1},
+                     "a text with blanks needs quotes");
         return std::nullopt;
     };
     if (info.type == ParamType::String && !value.starts_with('"')) {
         // On a command line texts have no quotes of their own.
         Diagnostics unused;
         std::optional<ValueText> read = lex(std::string(value), unused);
-        return read && read->form == ValueForm::Array ? read : lex(quote_ass(value), *diagnostics_);
+        return read && read->form == ValueForm::Array ? read
+                                                      : lex(quote_ass(value), *diagnostics_);
     }
     return lex(std::string(value), *diagnostics_);
 }
@@ -466,15 +616,20 @@ bool GraphEditor::set(NodeInstance& node, std::string_view param, std::string_vi
     const ParamInfo* info = name ? node.type().find(Name(name->base)) : nullptr;
     const std::string target = fmt::format("{}.{}", node.name().view(), param);
     if (info == nullptr) {
-        const std::string guess = did_you_mean(name ? name->base : param, param_names(node.type()));
-        diagnostics_->error(Code::UnknownParam, fmt::format("{} has no parameter \"{}\"", node.type().name.view(), param), {},
-                            fmt::format("{}`lightsieve nodes {}` lists all of them", guess.empty() ? "" : guess + "   ", node.type().name.view()));
+        const std::string guess =
+            did_you_mean(name ? name->base : param, param_names(node.type()));
+        diagnostics_->error(
+            Code::UnknownParam,
+            fmt::format("{} has no parameter \"{}\"", node.type().name.view(), param), {},
+            fmt::format("{}`lightsieve nodes {}` lists all of them",
+                        guess.empty() ? "" : guess + "   ", node.type().name.view()));
         return false;
     }
     std::shared_ptr<const SourceText> source;
     const std::optional<ValueText> read = lex_edit(*info, target, value, source);
     if (!read) return false;
-    const ParamText statement{Name(name->base), name->element, name->component, {}, {0, 0, 0}, *read};
+    const ParamText statement{Name(name->base), name->element, name->component, {},
+                              {0, 0, 0},        *read};
 
     // Keep what an error must bring back.
     const std::size_t n_errors = diagnostics_->n_errors(), index = index_of(node, *info);
@@ -483,7 +638,8 @@ bool GraphEditor::set(NodeInstance& node, std::string_view param, std::string_vi
     const SourceSpan written = node.written_[index];
     const bool was_set = node.set_[index];
     std::erase_if(node.links_, [&](const Link& link) {
-        return link.param == info && (name->element < 0 || link.element == name->element) && (name->component < 0 || link.component == name->component);
+        return link.param == info && (name->element < 0 || link.element == name->element) &&
+               (name->component < 0 || link.component == name->component);
     });
     given_.assign(node.type().params.size(), false);
     read_param(node, {&statement, source, source});
@@ -513,7 +669,8 @@ void GraphEditor::check_cycles(const std::vector<NodeInstance*>& starts, bool cu
     const auto step_of = [&](NodeInstance* node) {
         Step step{node, {}, 0};
         for (const NodeInstance* other : node->references())
-            if (other->kind() == node->kind()) step.next.push_back(const_cast<NodeInstance*>(other));  // the graph owns them all
+            if (other->kind() == node->kind())
+                step.next.push_back(const_cast<NodeInstance*>(other));  // the graph owns them all
         return step;
     };
     for (NodeInstance* start : starts) {
@@ -532,8 +689,10 @@ void GraphEditor::check_cycles(const std::vector<NodeInstance*>& starts, bool cu
             Mark& mark = marks[next];
             if (mark == Mark::Open) {
                 std::vector<NodeInstance*> circle;
-                auto first = std::find_if(path.begin(), path.end(), [&](const Step& step) { return step.node == next; });
-                for (; first != path.end(); ++first) circle.push_back(first->node);
+                auto first = std::find_if(path.begin(), path.end(),
+                                          [&](const Step& step) { return step.node == next; });
+                for (; first != path.end(); ++first)
+                    circle.push_back(first->node);
                 report_cycle(circle);
                 if (cut_them) cut(*top.node, *next);
             } else if (mark == Mark::New) {
@@ -547,7 +706,8 @@ void GraphEditor::check_cycles(const std::vector<NodeInstance*>& starts, bool cu
 void GraphEditor::report_cycle(const std::vector<NodeInstance*>& circle) {
     constexpr std::size_t kShown = 8;
     std::string names;
-    for (std::size_t i = 0; i < std::min(circle.size(), kShown); ++i) names += fmt::format("\"{}\" -> ", circle[i]->name().view());
+    for (std::size_t i = 0; i < std::min(circle.size(), kShown); ++i)
+        names += fmt::format("\"{}\" -> ", circle[i]->name().view());
     if (circle.size() > kShown) names += fmt::format("{} more -> ", circle.size() - kShown);
     names += fmt::format("\"{}\"", circle.front()->name().view());
     // Where one node of the circle names the next.
@@ -556,13 +716,22 @@ void GraphEditor::report_cycle(const std::vector<NodeInstance*>& circle) {
             if (link.source == &to) return link.where;
         for (const ParamInfo& info : from.type().params) {
             const std::string_view written = from.written_[index_of(from, info)].text();
-            if (is_reference(info.type) && written.find(to.name().view()) != std::string_view::npos) return from.written_[index_of(from, info)];
+            if (is_reference(info.type) &&
+                written.find(to.name().view()) != std::string_view::npos)
+                return from.written_[index_of(from, info)];
         }
         return from.where();
     };
-    Error error{Code::CyclicLink, fmt::format("nodes link to each other in a circle: {}", names), place(*circle.back(), *circle.front()), "take one of the links out", {}, Severity::Error};
+    Error error{Code::CyclicLink,
+                fmt::format("nodes link to each other in a circle: {}", names),
+                place(*circle.back(), *circle.front()),
+                "take one of the links out",
+                {},
+                Severity::Error};
     for (std::size_t i = 0; i + 1 < std::min(circle.size(), kShown); ++i)
-        error.notes.push_back({fmt::format("\"{}\" needs \"{}\"", circle[i]->name().view(), circle[i + 1]->name().view()), place(*circle[i], *circle[i + 1])});
+        error.notes.push_back({fmt::format("\"{}\" needs \"{}\"", circle[i]->name().view(),
+                                           circle[i + 1]->name().view()),
+                               place(*circle[i], *circle[i + 1])});
     diagnostics_->add(std::move(error));
 }
 
@@ -590,8 +759,10 @@ void GraphEditor::cut(NodeInstance& from, const NodeInstance& to) {
 
 void GraphEditor::repeated(const std::string& key, Error error) {
     const auto [place, added] = repeated_index_.emplace(key, repeated_.size());
-    if (added) repeated_.push_back({std::move(error), 1});
-    else ++repeated_[place->second].count;
+    if (added)
+        repeated_.push_back({std::move(error), 1});
+    else
+        ++repeated_[place->second].count;
 }
 
 void GraphEditor::report_repeated() {

@@ -31,8 +31,12 @@ class GraphEditor {
     struct Statement {
         const ParamText* param = nullptr;
         std::shared_ptr<const SourceText> name_source, value_source;
-        [[nodiscard]] SourceSpan name_span() const { return {name_source, param->name_range.offset, param->name_range.length}; }
-        [[nodiscard]] SourceSpan value_span() const { return {value_source, param->value.range.offset, param->value.range.length}; }
+        [[nodiscard]] SourceSpan name_span() const {
+            return {name_source, param->name_range.offset, param->name_range.length};
+        }
+        [[nodiscard]] SourceSpan value_span() const {
+            return {value_source, param->value.range.offset, param->value.range.length};
+        }
     };
     /// Reports of one kind are shown once with a count: scene files repeat the same unknown names in every node.
     struct Repeated {
@@ -45,7 +49,8 @@ class GraphEditor {
         std::int32_t component = -1;
     };
 
-    void add_nodes(const Document& document, std::vector<std::pair<const NodeBlock*, NodeInstance*>>& read);
+    void add_nodes(const Document& document,
+                   std::vector<std::pair<const NodeBlock*, NodeInstance*>>& read);
     void read_node(const Document& document, const NodeBlock& block, NodeInstance& node);
     void declare_user_data(const Document& document, const NodeBlock& block, NodeInstance& node);
     void check_user_data(const NodeInstance& node);
@@ -54,21 +59,29 @@ class GraphEditor {
     void read_known(NodeInstance& node, const ParamInfo& info, const Statement& statement);
     bool read_user_data(NodeInstance& node, const Statement& statement);
     void unknown_param(const NodeInstance& node, const Statement& statement);
-    bool check_suffixes(const NodeInstance& node, const ParamInfo& info, const Statement& statement);
-    void check_duplicate(const NodeInstance& node, const ParamInfo& info, const Statement& statement);
-    void check_pending(const NodeInstance& node, const ParamInfo& info, const Statement& statement);
+    bool check_suffixes(const NodeInstance& node, const ParamInfo& info,
+                        const Statement& statement);
+    void check_duplicate(const NodeInstance& node, const ParamInfo& info,
+                         const Statement& statement);
+    void check_pending(const NodeInstance& node, const ParamInfo& info,
+                       const Statement& statement);
 
-    bool reads_as_link(const ParamInfo& info, const ParamText& param, const std::string& text) const;
-    void add_link(NodeInstance& node, const ParamInfo& info, const Statement& statement, const std::string& text);
-    bool link_fits(const NodeInstance& node, const ParamInfo& info, const Found& source, const SourceSpan& where);
+    bool reads_as_link(const ParamInfo& info, const ParamText& param,
+                       const std::string& text) const;
+    void add_link(NodeInstance& node, const ParamInfo& info, const Statement& statement,
+                  const std::string& text);
+    bool link_fits(const NodeInstance& node, const ParamInfo& info, const Found& source,
+                   const SourceSpan& where);
     /// The node and component that `text` names. Reports and gives null if there is none.
     Found find_source(const std::string& text, const SourceSpan& where);
     const NodeInstance* find_node(const std::string& name, const SourceSpan& where);
     /// A warning if the node is there but of an unknown type, else a report of that severity.
     void missing_node(const std::string& name, const SourceSpan& where, Severity severity);
 
-    void store(NodeInstance& node, const ParamInfo& info, const ParamText& param, TypedValues values);
-    bool grow_array(NodeInstance& node, const ParamInfo& info, std::int64_t element, const SourceSpan& where);
+    void store(NodeInstance& node, const ParamInfo& info, const ParamText& param,
+               TypedValues values);
+    bool grow_array(NodeInstance& node, const ParamInfo& info, std::int64_t element,
+                    const SourceSpan& where);
     void replace_array(NodeInstance& node, const ParamInfo& info, TypedValues values);
     ParamReader reader(Diagnostics& diagnostics, bool quiet_references);
 
@@ -81,7 +94,9 @@ class GraphEditor {
     void report_repeated();
 
     /// The value of an edit; `source` becomes the text that it lies in.
-    std::optional<ValueText> lex_edit(const ParamInfo& info, std::string_view param, std::string_view value, std::shared_ptr<const SourceText>& source);
+    std::optional<ValueText> lex_edit(const ParamInfo& info, std::string_view param,
+                                      std::string_view value,
+                                      std::shared_ptr<const SourceText>& source);
 
     static std::size_t index_of(const NodeInstance& node, const ParamInfo& info);
     static std::byte* address(NodeInstance& node, const ParamInfo& info);
@@ -94,7 +109,7 @@ class GraphEditor {
     std::map<std::string, std::size_t> repeated_index_;
     std::vector<bool> given_;  ///< of the node being read: parameters that have a whole value
     std::uint64_t run_bytes_ = 0;
-    std::size_t n_compared_ = 0;  ///< names looked at for "did you mean"
+    std::size_t n_compared_ = 0;                 ///< names looked at for "did you mean"
     std::vector<NodeInstance::Buffer> retired_;  ///< replaced arrays, kept for a roll-back
 };
 

@@ -23,7 +23,8 @@ struct LightCommon {
     std::int32_t samples = 1, volume_samples = 2;
     bool normalize = true;
     /// Factors on what the light adds: seen directly, through transmission, by lobes, indirectly.
-    float camera = 0, transmission = 0, diffuse = 1, specular = 1, sss = 1, indirect = 1, volume = 1;
+    float camera = 0, transmission = 0, diffuse = 1, specular = 1, sss = 1, indirect = 1,
+          volume = 1;
     std::int32_t max_bounces = 999;
     Name aov;                   ///< the light group; empty or "default": none
     bool aov_indirect = false;  ///< skydome only: its light counts as background
@@ -37,11 +38,12 @@ struct LightCommon {
 
 /// A direction toward a light.
 struct LightSample {
-    Vec3f wi;               ///< unit, from the shaded point toward the light
-    float distance = 0;     ///< to the light's surface; kInfinity for distant lights
-    Color radiance;         ///< arriving along wi [W/(m^2 sr)]; for delta lights the irradiance of a facing plane
-    float pdf = 0;          ///< per solid angle; 1 for delta lights; 0: no light comes from there
-    bool delta = false;     ///< no other strategy can find this light (point, distant without angle)
+    Vec3f wi;            ///< unit, from the shaded point toward the light
+    float distance = 0;  ///< to the light's surface; kInfinity for distant lights
+    Color
+        radiance;  ///< arriving along wi [W/(m^2 sr)]; for delta lights the irradiance of a facing plane
+    float pdf = 0;       ///< per solid angle; 1 for delta lights; 0: no light comes from there
+    bool delta = false;  ///< no other strategy can find this light (point, distant without angle)
 };
 
 /// Radiance toward a point, and the density with which sample() would have chosen that direction.
@@ -53,20 +55,21 @@ struct LightEval {
 /// A point on a light's geometry, met by a ray.
 struct LightHit {
     Vec3f position;
-    Vec3f normal;             ///< unit, the geometry's outward side
+    Vec3f normal;  ///< unit, the geometry's outward side
     Vec2f uv;
     std::uint32_t primitive = 0;
-    float distance = 0;       ///< from the ray's origin
+    float distance = 0;  ///< from the ray's origin
 };
 
 /// Where a light is and how much it can send where: for choosing among many lights.
 /// Source: Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting".
 struct LightBounds {
-    Box3f box;                     ///< of the emitting points
-    Vec3f axis{0, 0, 1};           ///< of the cone of normals
-    float cos_spread = -1;         ///< half angle of the cone of normals (theta_o); -1: all directions
-    float cos_emission = 0;        ///< further angle to which light leaves (theta_e); 0: a half space
-    float intensity = 0;           ///< largest radiant intensity in any direction, mean of the channels [W/sr]
+    Box3f box;               ///< of the emitting points
+    Vec3f axis{0, 0, 1};     ///< of the cone of normals
+    float cos_spread = -1;   ///< half angle of the cone of normals (theta_o); -1: all directions
+    float cos_emission = 0;  ///< further angle to which light leaves (theta_e); 0: a half space
+    float intensity =
+        0;  ///< largest radiant intensity in any direction, mean of the channels [W/sr]
 };
 
 class Light {

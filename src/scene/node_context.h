@@ -18,11 +18,14 @@ class ColorInput {
   public:
     ColorInput() = default;
     explicit ColorInput(Color constant) : constant_(constant) {}
-    ColorInput(const void* program, ShaderValue (*eval)(const void* program, const ShadePoint& at)) : program_(program), eval_(eval) {}
+    ColorInput(const void* program, ShaderValue (*eval)(const void* program, const ShadePoint& at))
+        : program_(program), eval_(eval) {}
     [[nodiscard]] bool is_constant() const { return eval_ == nullptr; }
     /// The constant; black if the input is linked.
     [[nodiscard]] Color constant() const { return constant_; }
-    [[nodiscard]] Color at(const ShadePoint& point) const { return eval_ == nullptr ? constant_ : eval_(program_, point).rgb; }
+    [[nodiscard]] Color at(const ShadePoint& point) const {
+        return eval_ == nullptr ? constant_ : eval_(program_, point).rgb;
+    }
 
   private:
     Color constant_;
@@ -47,7 +50,8 @@ class NodeContext {
     /// Textures of the render; the cache outlives the scene.
     [[nodiscard]] virtual TextureCache& textures() = 0;
     /// Full path of an asset after environment variables and search paths, or nothing if no such file exists.
-    [[nodiscard]] virtual std::optional<std::string> find_asset(std::string_view filename) const = 0;
+    [[nodiscard]] virtual std::optional<std::string> find_asset(
+        std::string_view filename) const = 0;
     /// options.ignore_missing_textures.
     [[nodiscard]] virtual bool ignore_missing_textures() const = 0;
     /// Frame size in pixels and pixel aspect ratio, for cameras.
@@ -57,7 +61,8 @@ class NodeContext {
     };
     [[nodiscard]] virtual Frame frame() const = 0;
     /// Geometry of another shape node (mesh_light.mesh), in that shape's object space with its first matrix key; null with an error reported.
-    [[nodiscard]] virtual std::unique_ptr<ShapeGeometry> geometry_of(NodeRef shape, Mat4f& world_from_object) = 0;
+    [[nodiscard]] virtual std::unique_ptr<ShapeGeometry> geometry_of(NodeRef shape,
+                                                                     Mat4f& world_from_object) = 0;
 };
 
 }  // namespace lightsieve

@@ -28,11 +28,14 @@ constexpr std::array<TypeRow, 14> kTypes{{
 }};
 
 /// In the order of NodeKind.
-constexpr std::array<std::string_view, 7> kKinds{"options", "camera", "shape", "light", "shader", "filter", "driver"};
+constexpr std::array<std::string_view, 7> kKinds{"options", "camera", "shape", "light",
+                                                 "shader",  "filter", "driver"};
 
 }  // namespace
 
-std::string_view type_text(ParamType type) { return kTypes.at(static_cast<std::size_t>(type)).text; }
+std::string_view type_text(ParamType type) {
+    return kTypes.at(static_cast<std::size_t>(type)).text;
+}
 std::size_t type_size(ParamType type) { return kTypes.at(static_cast<std::size_t>(type)).size; }
 std::string_view kind_text(NodeKind kind) { return kKinds.at(static_cast<std::size_t>(kind)); }
 

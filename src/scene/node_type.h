@@ -39,14 +39,17 @@ struct ParamInfo {
     Name name;
     ParamType type{};
     bool is_array = false;
-    std::size_t offset = 0;           ///< bytes from the start of the block
-    std::string doc;                  ///< one line
-    std::string unit;                 ///< e.g. "deg", "scene units"; empty if none
-    std::optional<float> low, high;   ///< sensible range; values outside are clamped with a warning where `hard`
-    bool hard_range = false;          ///< values outside make no sense (negative roughness)
+    std::size_t offset = 0;  ///< bytes from the start of the block
+    std::string doc;         ///< one line
+    std::string unit;        ///< e.g. "deg", "scene units"; empty if none
+    std::optional<float> low,
+        high;  ///< sensible range; values outside are clamped with a warning where `hard`
+    bool hard_range = false;               ///< values outside make no sense (negative roughness)
     std::vector<std::string> enumerators;  ///< for Enum, in the order of their values
-    bool ignored = false;             ///< accepted without effect, because it only steers Arnold's own sampling
-    bool pending = false;             ///< accepted; a value other than the default gets a warning: not supported yet
+    bool ignored =
+        false;  ///< accepted without effect, because it only steers Arnold's own sampling
+    bool pending =
+        false;  ///< accepted; a value other than the default gets a warning: not supported yet
 };
 
 /// One lobe that a shader can produce, with the event that it makes.
@@ -78,7 +81,8 @@ struct NodeType {
     /// Called once before rendering: loads what the node needs, reports what is wrong. May change the block.
     void (*prepare)(void* block, NodeContext& context) = nullptr;
     std::unique_ptr<Light> (*make_light)(const void* block, NodeContext& context) = nullptr;
-    std::unique_ptr<ShapeGeometry> (*make_geometry)(const void* block, NodeContext& context) = nullptr;
+    std::unique_ptr<ShapeGeometry> (*make_geometry)(const void* block,
+                                                    NodeContext& context) = nullptr;
     std::unique_ptr<Camera> (*make_camera)(const void* block, NodeContext& context) = nullptr;
     std::unique_ptr<PixelFilter> (*make_filter)(const void* block, NodeContext& context) = nullptr;
     std::unique_ptr<Driver> (*make_driver)(const void* block, NodeContext& context) = nullptr;

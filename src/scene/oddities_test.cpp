@@ -38,7 +38,8 @@ class Oddity : public testing::TestWithParam<std::string> {};
 
 TEST_P(Oddity, ReadsWithoutComplaint) {
     Diagnostics diagnostics;
-    const Document document = read_ass_file((folder() / (GetParam() + ".ass")).string(), diagnostics);
+    const Document document =
+        read_ass_file((folder() / (GetParam() + ".ass")).string(), diagnostics);
     (void)build_graph(document, test::registry(), {}, diagnostics);
     EXPECT_EQ(diagnostics.render(), "");
 }
@@ -53,23 +54,28 @@ TEST_P(Oddity, MeansWhatItShould) {
     const fs::path expected = folder() / (GetParam() + ".expect");
     Diagnostics diagnostics;
     // Read under a short name: the dump shows it.
-    const Document document = read_ass(content(folder() / (GetParam() + ".ass")), GetParam() + ".ass", nullptr, diagnostics);
+    const Document document = read_ass(content(folder() / (GetParam() + ".ass")),
+                                       GetParam() + ".ass", nullptr, diagnostics);
     const std::string dumped = dump(build_graph(document, test::registry(), {}, diagnostics));
-    if (std::getenv("LIGHTSIEVE_UPDATE_EXPECTED") != nullptr) std::ofstream(expected, std::ios::binary) << dumped;
+    if (std::getenv("LIGHTSIEVE_UPDATE_EXPECTED") != nullptr)
+        std::ofstream(expected, std::ios::binary) << dumped;
     EXPECT_EQ(dumped, content(expected));
 }
 
 TEST_P(Oddity, GraphSurvivesWritingAndReading) {
     Diagnostics diagnostics;
-    const Document document = read_ass_file((folder() / (GetParam() + ".ass")).string(), diagnostics);
+    const Document document =
+        read_ass_file((folder() / (GetParam() + ".ass")).string(), diagnostics);
     const std::string once = write_ass(build_graph(document, test::registry(), {}, diagnostics));
     Diagnostics again;
-    const SceneGraph graph = build_graph(read_ass(once, "again.ass", nullptr, again), test::registry(), {}, again);
+    const SceneGraph graph =
+        build_graph(read_ass(once, "again.ass", nullptr, again), test::registry(), {}, again);
     EXPECT_EQ(again.render(), "");
     EXPECT_EQ(write_ass(graph), once);
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, Oddity, testing::ValuesIn(names()), [](const auto& file) { return file.param; });
+INSTANTIATE_TEST_SUITE_P(Files, Oddity, testing::ValuesIn(names()),
+                         [](const auto& file) { return file.param; });
 
 }  // namespace
 }  // namespace lightsieve

@@ -29,7 +29,8 @@ struct TypedValues {
 };
 
 /// Finds a node by the name in a file. Reports what is wrong and gives null then.
-using FindNode = std::function<const NodeInstance*(const std::string& name, const SourceSpan& where)>;
+using FindNode =
+    std::function<const NodeInstance*(const std::string& name, const SourceSpan& where)>;
 
 /// What a value is read for.
 struct ReadTarget {
@@ -42,12 +43,15 @@ struct ReadTarget {
 class ParamReader {
   public:
     /// run_bytes  how much of kMaxRunBytes is used up; counted on
-    ParamReader(FindNode find_node, std::uint64_t& run_bytes, Diagnostics& diagnostics) : find_node_(std::move(find_node)), run_bytes_(run_bytes), diagnostics_(diagnostics) {}
+    ParamReader(FindNode find_node, std::uint64_t& run_bytes, Diagnostics& diagnostics)
+        : find_node_(std::move(find_node)), run_bytes_(run_bytes), diagnostics_(diagnostics) {}
 
     /// Reads a value. Nothing with errors reported if it does not fit.
     ///
     /// value, source  as in a Document; `source` is the text that the value lies in
-    [[nodiscard]] std::optional<TypedValues> read(const ValueText& value, const std::shared_ptr<const SourceText>& source, const ReadTarget& target);
+    [[nodiscard]] std::optional<TypedValues> read(const ValueText& value,
+                                                  const std::shared_ptr<const SourceText>& source,
+                                                  const ReadTarget& target);
 
   private:
     FindNode find_node_;
@@ -60,6 +64,7 @@ class ParamReader {
 /// Index of an enumerator by its name (then ignoring case), or -1.
 [[nodiscard]] std::int32_t find_enumerator(const ParamInfo& info, std::string_view word);
 /// The text of a value that is one word or one string; nothing for other forms.
-[[nodiscard]] std::optional<std::string> single_text(const ValueText& value, const SourceText& source);
+[[nodiscard]] std::optional<std::string> single_text(const ValueText& value,
+                                                     const SourceText& source);
 
 }  // namespace lightsieve

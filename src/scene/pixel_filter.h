@@ -13,8 +13,9 @@ class PixelFilter {
     /// Value at an offset from the pixel's centre, not normalised.
     [[nodiscard]] virtual float eval(Vec2f offset) const = 0;
     struct Sample {
-        Vec2f offset;      ///< from the pixel's centre, in pixels
-        float weight = 1;  ///< eval / (pdf * integral of eval): 1, or +-a constant for filters with negative lobes
+        Vec2f offset;  ///< from the pixel's centre, in pixels
+        float weight =
+            1;  ///< eval / (pdf * integral of eval): 1, or +-a constant for filters with negative lobes
     };
     [[nodiscard]] virtual Sample sample(Vec2f u) const = 0;
     /// Density of sample() at an offset, per square pixel.

@@ -9,16 +9,16 @@
 namespace lightsieve {
 
 struct ShadePoint {
-    Vec3f position;               ///< world space
-    Vec3f wo{0, 0, 1};            ///< unit, toward where the ray came from
+    Vec3f position;                   ///< world space
+    Vec3f wo{0, 0, 1};                ///< unit, toward where the ray came from
     Vec3f geometric_normal{0, 0, 1};  ///< unit, of the surface as modelled (outward), not flipped
-    Vec3f normal{0, 0, 1};        ///< unit shading normal, flipped to the side of `wo`
-    Vec3f tangent{1, 0, 0};       ///< dP/du normalised, orthogonal to `normal` where uv exist
-    Vec2f uv;                     ///< first uv set
-    Vec2f barycentric;            ///< of the triangle
-    float uv_width = 0;           ///< footprint of the ray in uv units, for texture filtering
-    std::uint32_t face = 0;       ///< polygon number within the shape
-    std::uint32_t shape_id = 0;   ///< the shape's `id` parameter or a hash of its name
+    Vec3f normal{0, 0, 1};            ///< unit shading normal, flipped to the side of `wo`
+    Vec3f tangent{1, 0, 0};           ///< dP/du normalised, orthogonal to `normal` where uv exist
+    Vec2f uv;                         ///< first uv set
+    Vec2f barycentric;                ///< of the triangle
+    float uv_width = 0;               ///< footprint of the ray in uv units, for texture filtering
+    std::uint32_t face = 0;           ///< polygon number within the shape
+    std::uint32_t shape_id = 0;       ///< the shape's `id` parameter or a hash of its name
     RayType ray_type = RayType::Camera;  ///< of the ray that hit
     bool entering = true;         ///< the ray came from the side that `geometric_normal` points to
     float time = 0;               ///< [0,1) within the shutter

@@ -12,12 +12,13 @@ namespace lightsieve {
 /// Parameters of every shape node; `describe_shape_common` (nodes/shape/shape_common.h) documents them.
 struct ShapeCommon {
     std::uint8_t visibility = 255;  ///< RayType bits that see the shape
-    std::uint8_t sidedness = 255;   ///< RayType bits for which both sides exist; others pass through back faces
-    Array<NodeRef> shader;          ///< one, or one for each value of shidxs
-    Array<Mat4f> matrix;            ///< world_from_object, one a motion key
+    std::uint8_t sidedness =
+        255;  ///< RayType bits for which both sides exist; others pass through back faces
+    Array<NodeRef> shader;  ///< one, or one for each value of shidxs
+    Array<Mat4f> matrix;    ///< world_from_object, one a motion key
     float motion_start = 0, motion_end = 1;
     bool receive_shadows = true, self_shadows = true, matte = false, invert_normals = false;
-    bool opaque = true;             ///< deprecated, without effect
+    bool opaque = true;  ///< deprecated, without effect
     float ray_bias = 1e-6F;
     std::uint32_t id = 0;
     bool use_light_group = false, use_shadow_group = false;
@@ -30,13 +31,15 @@ struct ShapeCommon {
 struct TriangleMesh {
     std::vector<std::vector<Vec3f>> positions;  ///< one list a motion key
     std::vector<std::uint32_t> indices;
-    std::vector<std::vector<Vec3f>> normals;    ///< one list a motion key; empty: shade with the face normal
+    std::vector<std::vector<Vec3f>>
+        normals;  ///< one list a motion key; empty: shade with the face normal
     std::vector<std::uint32_t> normal_indices;
-    std::vector<Vec2f> uvs;                     ///< empty: no uv
+    std::vector<Vec2f> uvs;  ///< empty: no uv
     std::vector<std::uint32_t> uv_indices;
-    std::vector<std::uint32_t> face;            ///< polygon of each triangle
-    std::vector<std::uint32_t> corner;          ///< face corner (position in vidxs) of each triangle corner
-    std::vector<std::uint8_t> shader_index;     ///< into `shader`, one a triangle; empty: all 0
+    std::vector<std::uint32_t> face;  ///< polygon of each triangle
+    std::vector<std::uint32_t>
+        corner;  ///< face corner (position in vidxs) of each triangle corner
+    std::vector<std::uint8_t> shader_index;  ///< into `shader`, one a triangle; empty: all 0
 };
 
 /// Spheres, exact.

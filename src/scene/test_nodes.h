@@ -181,7 +181,8 @@ struct Ramp {
         d.param("input", &Ramp::input, "test");
         d.param("position", &Ramp::position, "test");
         d.param("color", &Ramp::color, "test");
-        d.param("interpolation", &Ramp::interpolation, "test").names({"constant", "linear", "catmull-rom", "monotonecubic"});
+        d.param("interpolation", &Ramp::interpolation, "test")
+            .names({"constant", "linear", "catmull-rom", "monotonecubic"});
         d.param("extra", &Ramp::extra, "test");
         d.param("placement", &Ramp::placement, "test");
         d.param("uvset", &Ramp::uvset, "test");

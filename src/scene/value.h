@@ -62,7 +62,9 @@ struct Array {
     std::uint32_t n_keys = 1;  ///< motion keys; at least 1
 
     [[nodiscard]] bool empty() const { return n == 0; }
-    [[nodiscard]] std::span<const T> key(std::uint32_t k) const { return {data + std::size_t{k} * n, n}; }
+    [[nodiscard]] std::span<const T> key(std::uint32_t k) const {
+        return {data + std::size_t{k} * n, n};
+    }
     [[nodiscard]] std::span<const T> first_key() const { return {data, n}; }
     [[nodiscard]] const T& operator[](std::size_t i) const { return data[i]; }
 };

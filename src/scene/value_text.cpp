@@ -56,19 +56,25 @@ std::string value_text(ParamType type, const std::byte* data, const ParamInfo* i
         case ParamType::Closure: return node_text(data);
         case ParamType::Enum: {
             const auto index = load<std::int32_t>(data);
-            const bool named = info != nullptr && index >= 0 && static_cast<std::size_t>(index) < info->enumerators.size();
-            return named ? quote_ass(info->enumerators[static_cast<std::size_t>(index)]) : std::to_string(index);
+            const bool named = info != nullptr && index >= 0 &&
+                               static_cast<std::size_t>(index) < info->enumerators.size();
+            return named ? quote_ass(info->enumerators[static_cast<std::size_t>(index)])
+                         : std::to_string(index);
         }
         default: return floats_text(data, component_count(type));
     }
 }
 
-std::string array_text(ParamType type, const std::byte* data, std::size_t n, std::size_t n_keys, const ParamInfo* info, std::string_view indent) {
-    std::string out = std::to_string(n) + " " + std::to_string(n_keys) + " " + std::string(type_text(type == ParamType::Closure ? ParamType::Node : type));
+std::string array_text(ParamType type, const std::byte* data, std::size_t n, std::size_t n_keys,
+                       const ParamInfo* info, std::string_view indent) {
+    std::string out = std::to_string(n) + " " + std::to_string(n_keys) + " " +
+                      std::string(type_text(type == ParamType::Closure ? ParamType::Node : type));
     const std::size_t per_line = std::max<std::size_t>(1, kNumbersPerLine / component_count(type));
     for (std::size_t i = 0; i < n * n_keys; ++i) {
-        if (i % per_line == 0) (out += '\n') += indent;
-        else out += ' ';
+        if (i % per_line == 0)
+            (out += '\n') += indent;
+        else
+            out += ' ';
         out += value_text(type, data + i * type_size(type), info);
     }
     return out;

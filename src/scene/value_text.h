@@ -18,6 +18,8 @@ namespace lightsieve {
 [[nodiscard]] std::string value_text(ParamType type, const std::byte* data, const ParamInfo* info);
 
 /// `N KEYS TYPE` and the values, a few on each line, each line after the first indented by `indent`.
-[[nodiscard]] std::string array_text(ParamType type, const std::byte* data, std::size_t n, std::size_t n_keys, const ParamInfo* info, std::string_view indent);
+[[nodiscard]] std::string array_text(ParamType type, const std::byte* data, std::size_t n,
+                                     std::size_t n_keys, const ParamInfo* info,
+                                     std::string_view indent);
 
 }  // namespace lightsieve

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from lightsieve.cli import lpe_list, lpe_match
 from tests.conftest import Run
 
 
@@ -19,6 +20,7 @@ def test_list_as_json_differs_between_the_tables_in_specular_only(run: Run) -> N
     tables = [
         run("lpe", "list", "--lpe-table", name, "--json").json for name in ("reference", "arnold7")
     ]
+    assert list(tables[0]) == list(lpe_list.JSON)
     assert [table["table"] for table in tables] == ["reference", "arnold7"]
     changed = [
         a["name"] for a, b in zip(tables[0]["aovs"], tables[1]["aovs"], strict=True) if a != b
@@ -50,6 +52,7 @@ def test_match_says_yes_or_no_and_exits_accordingly(
 def test_match_as_json(run: Run) -> None:
     done = run("lpe", "match", "diffuse_direct", "C RD L", "C RD O", "--json")
     assert done.code == 1
+    assert list(done.json) == list(lpe_match.JSON)
     assert done.json == {
         "expression": "C<RD>L",
         "paths": [{"path": "C RD L", "taken": True}, {"path": "C RD O", "taken": False}],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lightsieve.cli import nodes as nodes_command
 from lightsieve.scene import nodes
 from tests.conftest import ROOT, Run
 
@@ -31,6 +32,7 @@ def test_a_node_in_full(run: Run) -> None:
 
 def test_a_node_as_json(run: Run) -> None:
     document = run("nodes", "lambert", "--json").json
+    assert ["nodes", *document] == list(nodes_command.JSON)
     assert document["name"] == "lambert"
     assert document["lobes"][0]["event"] == "RD"
     params = {param["name"]: param for param in document["params"]}

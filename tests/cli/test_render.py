@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from lightsieve.cli import render
 from tests.conftest import ROOT, Run
 
 STILL = ROOT / "tests/scenes/still.ass"
@@ -41,6 +42,7 @@ def test_a_scene_without_outputs_writes_its_beauty(run: Run, still: Path, tmp_pa
 
 def test_json_has_what_the_text_says(run: Run, still: Path) -> None:
     document = run("render", still.name, *FAST, "--json").json
+    assert list(document) == list(render.JSON)
     assert document["files"] == ["still.exr"]
     assert (document["width"], document["height"], document["samples"]) == (16, 12, 192)
     assert document["stopped"] is False

@@ -124,7 +124,8 @@ class PlacedCamera : public Camera {
   public:
     PlacedCamera(const CameraCommon& params, NodeContext& context);
     [[nodiscard]] Mat4f camera_from_world(float time) const override {
-        return world_from_camera_.moves() ? world_from_camera_.at(time).inverse() : camera_from_world_;
+        return world_from_camera_.moves() ? world_from_camera_.at(time).inverse()
+                                          : camera_from_world_;
     }
     [[nodiscard]] float sample_time(float u) const override { return shutter_.sample(u); }
     [[nodiscard]] float shutter_start() const override { return clock_.start; }

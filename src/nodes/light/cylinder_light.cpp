@@ -48,10 +48,14 @@ TriangleMesh mantle(Vec3f bottom, Vec3f top, float radius, const Mat4f& matrix) 
 }
 
 NodeType CylinderLight::describe() {
-    Describe<CylinderLight> d("cylinder_light", NodeKind::Light, "The mantle of a cylinder that shines outward with radiance I / area, or I without normalize; I = color * intensity * 2^exposure.");
+    Describe<CylinderLight> d("cylinder_light", NodeKind::Light,
+                              "The mantle of a cylinder that shines outward with radiance I / "
+                              "area, or I without normalize; I = color * intensity * 2^exposure.");
     d.param("top", &CylinderLight::top, "One end of the axis, in light space.");
     d.param("bottom", &CylinderLight::bottom, "The other end of the axis, in light space.");
-    d.param("radius", &CylinderLight::radius, "Radius; the matrix scales it.").unit("scene units").hard_range(0, kInfinity);
+    d.param("radius", &CylinderLight::radius, "Radius; the matrix scales it.")
+        .unit("scene units")
+        .hard_range(0, kInfinity);
     describe_light_common(d);
     return d.done();
 }
@@ -63,7 +67,8 @@ std::unique_ptr<Light> CylinderLight::make_light(NodeContext& context) const {
     const std::optional<Vec3f> lower = finite_value(bottom, kBottom, "bottom", context);
     const std::optional<float> size = finite_value(radius, kRadius, "radius", context);
     if (!emission || !placement || !upper || !lower || !size) return nullptr;
-    auto light = std::make_unique<TriangleLight>(mantle(*lower, *upper, std::max(0.0F, *size), *placement), *emission, normalize);
+    auto light = std::make_unique<TriangleLight>(
+        mantle(*lower, *upper, std::max(0.0F, *size), *placement), *emission, normalize);
     if (!(light->area() > 0)) warn_no_area(context, "radius");
     return light;
 }

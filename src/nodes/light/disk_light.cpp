@@ -93,11 +93,19 @@ class DiskSource final : public Light {
 };
 
 NodeType DiskLight::describe() {
-    Describe<DiskLight> d("disk_light", NodeKind::Light, "A flat disc that shines on one side with radiance I / area, or I without normalize; I = color * intensity * 2^exposure.");
+    Describe<DiskLight> d("disk_light", NodeKind::Light,
+                          "A flat disc that shines on one side with radiance I / area, or I "
+                          "without normalize; I = color * intensity * 2^exposure.");
     d.param("position", &DiskLight::position, "Centre, in light space.");
-    d.param("direction", &DiskLight::direction, "Direction in which the disc shines, in light space.");
-    d.param("radius", &DiskLight::radius, "Radius; the matrix scales it.").unit("scene units").hard_range(0, kInfinity);
-    d.param("spread", &DiskLight::spread, "1: light leaves to all sides; less: focused along the normal.").range(0, 1).pending();
+    d.param("direction", &DiskLight::direction,
+            "Direction in which the disc shines, in light space.");
+    d.param("radius", &DiskLight::radius, "Radius; the matrix scales it.")
+        .unit("scene units")
+        .hard_range(0, kInfinity);
+    d.param("spread", &DiskLight::spread,
+            "1: light leaves to all sides; less: focused along the normal.")
+        .range(0, 1)
+        .pending();
     describe_light_common(d);
     return d.done();
 }
@@ -106,19 +114,23 @@ std::unique_ptr<Light> DiskLight::make_light(NodeContext& context) const {
     const std::optional<Emission> emission = make_emission(*this, context);
     const std::optional<Mat4f> placement = world_from_light(*this, context);
     const std::optional<Vec3f> local_center = finite_value(position, kOrigin, "position", context);
-    const std::optional<Vec3f> local_direction = finite_value(direction, kDirection, "direction", context);
+    const std::optional<Vec3f> local_direction =
+        finite_value(direction, kDirection, "direction", context);
     const std::optional<float> local_radius = finite_value(radius, kRadius, "radius", context);
-    if (!emission || !placement || !local_center || !local_direction || !local_radius) return nullptr;
+    if (!emission || !placement || !local_center || !local_direction || !local_radius)
+        return nullptr;
     const Frame frame = Frame::from_z(lightsieve::normalize(*local_direction, kDirection));
     const float r = std::max(0.0F, *local_radius);
-    const Vec3f center = placement->point(*local_center), a = placement->vector(frame.x * r), b = placement->vector(frame.y * r);
+    const Vec3f center = placement->point(*local_center), a = placement->vector(frame.x * r),
+                b = placement->vector(frame.y * r);
     const Vec3f up = cross(a, b) * (placement->determinant3() < 0 ? -1.0F : 1.0F);
     const float area = kPi * length(up);
     if (!(area > kMinLightArea) || !std::isfinite(area) || !is_finite(center)) {
         warn_no_area(context, "radius");
         return std::make_unique<DarkLight>();
     }
-    return std::make_unique<DiskSource>(center, a, b, lightsieve::normalize(up), area, emission->scaled(normalize ? 1 / area : 1));
+    return std::make_unique<DiskSource>(center, a, b, lightsieve::normalize(up), area,
+                                        emission->scaled(normalize ? 1 / area : 1));
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ class DistantSource final : public Light {
   public:
     /// travel      unit, in which the light goes
     /// irradiance  what `emission` means: of a facing plane with `normalize`, otherwise radiance
-    DistantSource(Vec3f travel, float half_angle, const Emission& emission, bool normalized) : travel_(travel) {
+    DistantSource(Vec3f travel, float half_angle, const Emission& emission, bool normalized)
+        : travel_(travel) {
         delta_ = half_angle < kMinHalfAngle;
         const float half_sine = std::sin(half_angle * 0.5F);
         one_minus_cos_ = 2 * half_sine * half_sine;
@@ -34,7 +35,8 @@ class DistantSource final : public Light {
 
     [[nodiscard]] LightSample sample(Vec3f, Vec2f u) const override {
         if (delta_) return {-travel_, kInfinity, emission_.toward(-travel_), 1, true};
-        const Vec3f wi = Frame::from_z(-travel_).world_from_local(sample_uniform_cone(u, one_minus_cos_));
+        const Vec3f wi =
+            Frame::from_z(-travel_).world_from_local(sample_uniform_cone(u, one_minus_cos_));
         return {wi, kInfinity, emission_.toward(wi) * radiance_scale_, pdf(), false};
     }
 
@@ -59,18 +61,21 @@ class DistantSource final : public Light {
     [[nodiscard]] float pdf() const { return 1 / (2 * kPi * one_minus_cos_); }
     Vec3f travel_;
     Emission emission_;
-    float one_minus_cos_ = 0;    ///< of the half angle
-    float radiance_scale_ = 1;   ///< radiance for an emission of 1
+    float one_minus_cos_ = 0;   ///< of the half angle
+    float radiance_scale_ = 1;  ///< radiance for an emission of 1
     float irradiance_ = 0;
     bool delta_ = true;
 };
 
 NodeType DistantLight::describe() {
     Describe<DistantLight> d("distant_light", NodeKind::Light,
-                             "Parallel light from infinitely far away; color * intensity * 2^exposure is the irradiance of a facing plane.");
-    d.param("direction", &DistantLight::direction, "Direction in which the light goes, in light space.");
+                             "Parallel light from infinitely far away; color * intensity * "
+                             "2^exposure is the irradiance of a facing plane.");
+    d.param("direction", &DistantLight::direction,
+            "Direction in which the light goes, in light space.");
     d.param("angle", &DistantLight::angle,
-            "Full angle of the cone that the light fills evenly; without normalize the colour is its radiance.")
+            "Full angle of the cone that the light fills evenly; without normalize the colour is "
+            "its radiance.")
         .unit("deg")
         .hard_range(0, 180);
     describe_light_common(d);
@@ -85,13 +90,19 @@ std::unique_ptr<Light> DistantLight::make_light(NodeContext& context) const {
     if (!emission || !placement || !local || !full) return nullptr;
     const Vec3f travel = placement->vector(*local);
     if (!(length_squared(travel) > 0) || !is_finite(travel)) {
-        context.diagnostics().error(Code::InvalidValue, "distant light \"" + context.node_name().str() + "\" has no direction",
-                                    context.where(placement->vector(kDirection) == Vec3f{} ? "matrix" : "direction"), "write a direction that is not zero and a matrix that keeps it");
+        context.diagnostics().error(
+            Code::InvalidValue,
+            "distant light \"" + context.node_name().str() + "\" has no direction",
+            context.where(placement->vector(kDirection) == Vec3f{} ? "matrix" : "direction"),
+            "write a direction that is not zero and a matrix that keeps it");
         return nullptr;
     }
     // Scaled by hand first: the length of huge or tiny directions would overflow.
-    const float largest = std::max(std::abs(travel.x), std::max(std::abs(travel.y), std::abs(travel.z)));
-    return std::make_unique<DistantSource>(lightsieve::normalize(travel * (1 / largest)), deg_to_rad(std::clamp(*full, 0.0F, 180.0F)) * 0.5F, *emission, normalize);
+    const float largest =
+        std::max(std::abs(travel.x), std::max(std::abs(travel.y), std::abs(travel.z)));
+    return std::make_unique<DistantSource>(lightsieve::normalize(travel * (1 / largest)),
+                                           deg_to_rad(std::clamp(*full, 0.0F, 180.0F)) * 0.5F,
+                                           *emission, normalize);
 }
 
 }  // namespace

@@ -22,27 +22,50 @@ namespace lightsieve {
 template <class T>
 void describe_light_common(Describe<T>& d) {
     d.param("color", &LightCommon::color, "Colour of the light; a shader may drive it.");
-    d.param("intensity", &LightCommon::intensity, "Brightness: the light emits color * intensity * 2^exposure.");
+    d.param("intensity", &LightCommon::intensity,
+            "Brightness: the light emits color * intensity * 2^exposure.");
     d.param("exposure", &LightCommon::exposure, "Brightness in powers of two.").unit("f-stops");
-    d.param("normalize", &LightCommon::normalize, "Brightness at a distance does not depend on the light's size.");
+    d.param("normalize", &LightCommon::normalize,
+            "Brightness at a distance does not depend on the light's size.");
     d.param("cast_shadows", &LightCommon::cast_shadows, "Objects cast shadows in this light.");
-    d.param("cast_volumetric_shadows", &LightCommon::cast_volumetric_shadows, "Volumes see shadows in this light.");
-    d.param("shadow_density", &LightCommon::shadow_density, "Darkness of shadows: 0 none, 1 full.").range(0, 1);
+    d.param("cast_volumetric_shadows", &LightCommon::cast_volumetric_shadows,
+            "Volumes see shadows in this light.");
+    d.param("shadow_density", &LightCommon::shadow_density, "Darkness of shadows: 0 none, 1 full.")
+        .range(0, 1);
     d.param("shadow_color", &LightCommon::shadow_color, "Colour that shadows are filled with.");
-    d.param("samples", &LightCommon::samples, "Arnold's shadow rays a shading point; here lights share the pixel's samples.").ignored();
+    d.param("samples", &LightCommon::samples,
+            "Arnold's shadow rays a shading point; here lights share the pixel's samples.")
+        .ignored();
     d.param("volume_samples", &LightCommon::volume_samples, "The same for volumes.").ignored();
-    d.param("camera", &LightCommon::camera, "Factor on the light seen directly by the camera; 0 hides it.").range(0, 1);
-    d.param("transmission", &LightCommon::transmission, "Factor on the light seen through transmissive surfaces.").range(0, 1);
-    d.param("diffuse", &LightCommon::diffuse, "Factor on diffuse reflection and transmission of the light.").range(0, 1);
-    d.param("specular", &LightCommon::specular, "Factor on specular reflection and transmission of the light.").range(0, 1);
+    d.param("camera", &LightCommon::camera,
+            "Factor on the light seen directly by the camera; 0 hides it.")
+        .range(0, 1);
+    d.param("transmission", &LightCommon::transmission,
+            "Factor on the light seen through transmissive surfaces.")
+        .range(0, 1);
+    d.param("diffuse", &LightCommon::diffuse,
+            "Factor on diffuse reflection and transmission of the light.")
+        .range(0, 1);
+    d.param("specular", &LightCommon::specular,
+            "Factor on specular reflection and transmission of the light.")
+        .range(0, 1);
     d.param("sss", &LightCommon::sss, "Factor on subsurface scattering of the light.").range(0, 1);
-    d.param("indirect", &LightCommon::indirect, "Factor on the light after more than one scattering.").range(0, 1);
-    d.param("volume", &LightCommon::volume, "Factor on volume scattering of the light.").range(0, 1);
-    d.param("max_bounces", &LightCommon::max_bounces, "Most scatterings before this light is met; 0: direct light only.").range(0, 999);
-    d.param("aov", &LightCommon::aov, "Light group of the light path expressions; empty or \"default\": none.");
-    d.param("filters", &LightCommon::filters, "Light filters (decay, barn doors, gobos).").pending();
-    d.param("matrix", &LightCommon::matrix, "Placement in the world, row vectors; lights shine along local -Z.");
-    d.param("motion_start", &LightCommon::motion_start, "Time of the first motion key.").unit("frames");
+    d.param("indirect", &LightCommon::indirect,
+            "Factor on the light after more than one scattering.")
+        .range(0, 1);
+    d.param("volume", &LightCommon::volume, "Factor on volume scattering of the light.")
+        .range(0, 1);
+    d.param("max_bounces", &LightCommon::max_bounces,
+            "Most scatterings before this light is met; 0: direct light only.")
+        .range(0, 999);
+    d.param("aov", &LightCommon::aov,
+            "Light group of the light path expressions; empty or \"default\": none.");
+    d.param("filters", &LightCommon::filters, "Light filters (decay, barn doors, gobos).")
+        .pending();
+    d.param("matrix", &LightCommon::matrix,
+            "Placement in the world, row vectors; lights shine along local -Z.");
+    d.param("motion_start", &LightCommon::motion_start, "Time of the first motion key.")
+        .unit("frames");
     d.param("motion_end", &LightCommon::motion_end, "Time of the last motion key.").unit("frames");
 }
 
@@ -51,7 +74,8 @@ class Emission {
   public:
     Emission() = default;
     /// factor  on the colour: intensity, exposure, and what the kind of light divides by
-    Emission(ColorInput color, float factor) : color_(color), factor_(factor), constant_(color.constant() * factor) {}
+    Emission(ColorInput color, float factor)
+        : color_(color), factor_(factor), constant_(color.constant() * factor) {}
 
     /// Of a light without place; builds the shading point only for a shader.
     ///
@@ -83,12 +107,16 @@ class Emission {
         float sum = 0;
         for (int y = 0; y < kCells; ++y)
             for (int x = 0; x < kCells; ++x)
-                sum += magnitude(at({}, {0, 0, 1}, {(static_cast<float>(x) + 0.5F) / kCells, (static_cast<float>(y) + 0.5F) / kCells}));
+                sum += magnitude(at({}, {0, 0, 1},
+                                    {(static_cast<float>(x) + 0.5F) / kCells,
+                                     (static_cast<float>(y) + 0.5F) / kCells}));
         return std::max(sum / (kCells * kCells), least_magnitude());
     }
     /// What is taken at least for a shader, which may shine between the points where it was found black.
     [[nodiscard]] float least_magnitude() const { return 1e-3F * std::abs(factor_); }
-    [[nodiscard]] static float magnitude(Color c) { return (std::abs(c.r) + std::abs(c.g) + std::abs(c.b)) * (1.0F / 3); }
+    [[nodiscard]] static float magnitude(Color c) {
+        return (std::abs(c.r) + std::abs(c.g) + std::abs(c.b)) * (1.0F / 3);
+    }
 
   private:
     ColorInput color_;
@@ -98,7 +126,8 @@ class Emission {
 
 namespace light_detail {
 
-inline std::nullopt_t refuse(NodeContext& context, const char* param, const std::string& what, const std::string& hint) {
+inline std::nullopt_t refuse(NodeContext& context, const char* param, const std::string& what,
+                             const std::string& hint) {
     context.diagnostics().error(Code::InvalidValue, what, context.where(param), hint);
     return std::nullopt;
 }
@@ -113,13 +142,20 @@ inline std::optional<Emission> make_emission(const LightCommon& light, NodeConte
     const float strength = light.strength();
     if (!std::isfinite(strength)) {
         const char* param = std::isfinite(light.intensity) ? "exposure" : "intensity";
-        return light_detail::refuse(context, param, "intensity * 2^exposure of \"" + context.node_name().str() + "\" is not a finite number",
+        return light_detail::refuse(context, param,
+                                    "intensity * 2^exposure of \"" + context.node_name().str() +
+                                        "\" is not a finite number",
                                     "write finite values for both");
     }
     const ColorInput color = context.color_input("color");
     const Color emitted = color.constant() * strength;
-    if (!is_finite(emitted) || Emission::magnitude(emitted) > kMaxEmission || std::abs(strength) > kMaxEmission)
-        return light_detail::refuse(context, "color", "color * intensity * 2^exposure of \"" + context.node_name().str() + "\" is not finite or above 1e16", "write smaller values");
+    if (!is_finite(emitted) || Emission::magnitude(emitted) > kMaxEmission ||
+        std::abs(strength) > kMaxEmission)
+        return light_detail::refuse(context, "color",
+                                    "color * intensity * 2^exposure of \"" +
+                                        context.node_name().str() +
+                                        "\" is not finite or above 1e16",
+                                    "write smaller values");
     return Emission(color, strength);
 }
 
@@ -130,31 +166,41 @@ inline std::optional<Mat4f> world_from_light(const LightCommon& light, NodeConte
     const Mat4f first = light.matrix[0];
     for (std::size_t i = 1; i < n_keys; ++i) {
         if (light.matrix[i] == first) continue;
-        context.diagnostics().warning(Code::ParamPending, "light \"" + context.node_name().str() + "\" moves", context.where("matrix"),
-                                      "moving lights are not supported yet; the first key is used");
+        context.diagnostics().warning(
+            Code::ParamPending, "light \"" + context.node_name().str() + "\" moves",
+            context.where("matrix"), "moving lights are not supported yet; the first key is used");
         break;
     }
     if (!first.finite())
-        return light_detail::refuse(context, "matrix", "the matrix of \"" + context.node_name().str() + "\" is not finite", "write sixteen finite numbers");
+        return light_detail::refuse(
+            context, "matrix", "the matrix of \"" + context.node_name().str() + "\" is not finite",
+            "write sixteen finite numbers");
     return first;
 }
 
 /// The first value of an array parameter, or nothing with an error if it is not finite.
-inline std::optional<float> finite_value(const Array<float>& values, float fallback, const char* param, NodeContext& context) {
+inline std::optional<float> finite_value(const Array<float>& values, float fallback,
+                                         const char* param, NodeContext& context) {
     const float v = values.empty() ? fallback : values[0];
     if (std::isfinite(v)) return v;
-    return light_detail::refuse(context, param, std::string("\"") + param + "\" is not a finite number", "write a finite number");
+    return light_detail::refuse(context, param,
+                                std::string("\"") + param + "\" is not a finite number",
+                                "write a finite number");
 }
-inline std::optional<Vec3f> finite_value(const Array<Vec3f>& values, Vec3f fallback, const char* param, NodeContext& context) {
+inline std::optional<Vec3f> finite_value(const Array<Vec3f>& values, Vec3f fallback,
+                                         const char* param, NodeContext& context) {
     const Vec3f v = values.empty() ? fallback : values[0];
     if (is_finite(v)) return v;
-    return light_detail::refuse(context, param, std::string("\"") + param + "\" is not finite", "write three finite numbers");
+    return light_detail::refuse(context, param, std::string("\"") + param + "\" is not finite",
+                                "write three finite numbers");
 }
 
 /// Warns that a light cannot shine because of its shape.
 inline void warn_no_area(NodeContext& context, const char* param) {
-    context.diagnostics().warning(Code::InvalidValue, "light \"" + context.node_name().str() + "\" has no area and gives no light", context.where(param),
-                                  "check its size and the scale of its matrix");
+    context.diagnostics().warning(
+        Code::InvalidValue,
+        "light \"" + context.node_name().str() + "\" has no area and gives no light",
+        context.where(param), "check its size and the scale of its matrix");
 }
 
 /// A light that gives nothing, for parameters that leave none over.

@@ -104,11 +104,14 @@ TEST(PointLight, MatrixScalesTheRadius) {
 
 // ---- quad_light
 
-std::vector<Vec3f> quad_corners(const Mat4f& m) { return {m.point({1, -1, 0}), m.point({-1, -1, 0}), m.point({-1, 1, 0}), m.point({1, 1, 0})}; }
+std::vector<Vec3f> quad_corners(const Mat4f& m) {
+    return {m.point({1, -1, 0}), m.point({-1, -1, 0}), m.point({-1, 1, 0}), m.point({1, 1, 0})};
+}
 
 TEST(QuadLight, AgreesWithLambertsFormula) {
     // Shining along (1, -2, 0.5) from above; a mirrored and a stretched one too.
-    for (const Vec3f scale : {Vec3f{1, 1, 1}, Vec3f{0.3F, 2, 1}, Vec3f{-1, 0.7F, 1}, Vec3f{0.05F, 0.05F, 0}, Vec3f{1, 1, -1}}) {
+    for (const Vec3f scale : {Vec3f{1, 1, 1}, Vec3f{0.3F, 2, 1}, Vec3f{-1, 0.7F, 1},
+                              Vec3f{0.05F, 0.05F, 0}, Vec3f{1, 1, -1}}) {
         const Mat4f m = placed({-1, 4, 0}, scale);
         Bench b(node_quad_light());
         b.node.set("intensity", 5.0F);
@@ -118,7 +121,9 @@ TEST(QuadLight, AgreesWithLambertsFormula) {
         const Vec3f lit = scale.z < 0 ? Vec3f{-2.5F, 8, -1} : Vec3f{0.5F, 0, 1};
         const Vec3f normal = scale.z < 0 ? Vec3f{0, -1, 0} : Vec3f{0, 1, 0};
         const double expected = 5 / area * polygon_irradiance(quad_corners(m), lit, normal);
-        EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, lit, normal).r) / expected, 1, 5e-4) << scale.x << " " << scale.y << " " << scale.z;
+        EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, lit, normal).r) / expected, 1,
+                    5e-4)
+            << scale.x << " " << scale.y << " " << scale.z;
         expect_sound(*b.light, lit);
     }
 }
@@ -127,12 +132,15 @@ TEST(QuadLight, NearAndGrazingPointsStayExact) {
     Bench b(node_quad_light());
     b.matrix(Mat4f::look_at({0, 1, 0}, {0, 0, 0}, {0, 0, 1})).make();
     const std::vector<Vec3f> corners{{1, 1, 1}, {-1, 1, 1}, {-1, 1, -1}, {1, 1, -1}};
-    for (const Vec3f from : {Vec3f{0.2F, 0.999F, 0.1F}, Vec3f{4, 0.97F, 0}, Vec3f{500, -800, 300}, Vec3f{0, 0, 0}}) {
+    for (const Vec3f from :
+         {Vec3f{0.2F, 0.999F, 0.1F}, Vec3f{4, 0.97F, 0}, Vec3f{500, -800, 300}, Vec3f{0, 0, 0}}) {
         const Vec3f normal = normalize(Vec3f{0, 1, 0} - from);
         const double expected = polygon_irradiance(corners, from, normal) / 4;
         // Near points see parts of the light below their horizon.
         if (from.x < 0.5F && from.y > 0.5F) continue;
-        EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, from, normal).r) / expected, 1, 3e-3) << from.x;
+        EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, from, normal).r) / expected,
+                    1, 3e-3)
+            << from.x;
     }
     expect_strategies_agree(*b.light, {0.2F, 0.9F, 0.1F});
     expect_directions_follow_density(*b.light, {0.2F, 0.9F, 0.1F});
@@ -156,9 +164,12 @@ TEST(QuadLight, AnyQuadrilateral) {
     std::vector<Vec3f> world;
     for (const Vec3f c : corners)
         world.push_back(placed({-1, 4, 0}).point(c));
-    const double area = 0.5 * static_cast<double>(length(cross(world[2] - world[0], world[3] - world[1])));
+    const double area =
+        0.5 * static_cast<double>(length(cross(world[2] - world[0], world[3] - world[1])));
     const double expected = polygon_irradiance(world, {0.5F, 0, 1}, {0, 1, 0}) / area;
-    EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, {0.5F, 0, 1}, {0, 1, 0}).r) / expected, 1, 1e-3);
+    EXPECT_NEAR(
+        static_cast<double>(sampled_irradiance(*b.light, {0.5F, 0, 1}, {0, 1, 0}).r) / expected, 1,
+        1e-3);
     expect_sound(*b.light, {0.5F, 0, 1});
 }
 
@@ -207,7 +218,8 @@ TEST(QuadLight, HostileParameters) {
 
 TEST(AnyLight, IntensityBoundsWhatIsSeenFromAfar) {
     std::vector<Bench> benches;
-    for (const auto& make : {node_quad_light, node_disk_light, node_cylinder_light, node_point_light, node_spot_light}) {
+    for (const auto& make : {node_quad_light, node_disk_light, node_cylinder_light,
+                             node_point_light, node_spot_light}) {
         benches.emplace_back(make());
         benches.back().node.set("intensity", 3.0F);
     }
@@ -220,7 +232,9 @@ TEST(AnyLight, IntensityBoundsWhatIsSeenFromAfar) {
         for (std::uint32_t i = 0; i < 64; ++i) {
             const Vec2f u = sobol(i);
             const float z = 2 * u.x - 1, r = std::sqrt(1 - z * z);
-            const Vec3f away = i == 0 ? Vec3f{0, 0, -1} : Vec3f{r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z};
+            const Vec3f away =
+                i == 0 ? Vec3f{0, 0, -1}
+                       : Vec3f{r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z};
             most = std::max(most, sampled_irradiance(*b.light, away * 100, -away, 256).r * 1e4F);
         }
         EXPECT_LT(most, intensity * 1.01F) << b.node.type().name.view();
@@ -252,7 +266,8 @@ TEST(DiskLight, AgreesWithItsClosedForms) {
     EXPECT_EQ(b.light->sample({0, 3, 0}, {0.4F, 0.4F}).pdf, 0);
     EXPECT_EQ(look(*b.light, {0, 3, 0}, {0, -1, 0}).pdf, 0);
     // Rays meet a polygon around the disc; its corners do not shine.
-    const Vec3f corner = normalize(std::get<TriangleMesh>(b.light->geometry()->data).positions[0][0] - Vec3f{0, 2, 0});
+    const Vec3f corner = normalize(
+        std::get<TriangleMesh>(b.light->geometry()->data).positions[0][0] - Vec3f{0, 2, 0});
     EXPECT_TRUE(cast(*b.light, corner * 1.0005F, {0, 1, 0}).has_value());
     EXPECT_EQ(look(*b.light, corner * 1.0005F, {0, 1, 0}).pdf, 0);
     EXPECT_GT(look(*b.light, corner * 0.9995F, {0, 1, 0}).pdf, 0);
@@ -264,9 +279,13 @@ TEST(DiskLight, MatrixMakesEllipses) {
     b.radius(1).matrix(m).make();
     std::vector<Vec3f> polygon;
     for (int i = 0; i < 2000; ++i)
-        polygon.push_back(m.point({std::cos(2 * kPi * static_cast<float>(i) / 2000), std::sin(2 * kPi * static_cast<float>(i) / 2000), 0}));
-    const double expected = polygon_irradiance(polygon, {-2.5F, 8, -1}, {0, -1, 0}) / static_cast<double>(kPi);
-    EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, {-2.5F, 8, -1}, {0, -1, 0}).r) / expected, 1, 1e-3);
+        polygon.push_back(m.point({std::cos(2 * kPi * static_cast<float>(i) / 2000),
+                                   std::sin(2 * kPi * static_cast<float>(i) / 2000), 0}));
+    const double expected =
+        polygon_irradiance(polygon, {-2.5F, 8, -1}, {0, -1, 0}) / static_cast<double>(kPi);
+    EXPECT_NEAR(
+        static_cast<double>(sampled_irradiance(*b.light, {-2.5F, 8, -1}, {0, -1, 0}).r) / expected,
+        1, 1e-3);
     expect_sound(*b.light, {-2.5F, 8, -1});
 }
 
@@ -285,14 +304,18 @@ double mantle_irradiance(const Mat4f& m, float radius, Vec3f from, Vec3f normal)
     double sum = 0;
     for (int i = 0; i < kAround; ++i)
         for (int j = 0; j < kAlong; ++j) {
-            const float a0 = 2 * kPi * static_cast<float>(i) / kAround, a1 = 2 * kPi * static_cast<float>(i + 1) / kAround, a = 0.5F * (a0 + a1);
+            const float a0 = 2 * kPi * static_cast<float>(i) / kAround,
+                        a1 = 2 * kPi * static_cast<float>(i + 1) / kAround, a = 0.5F * (a0 + a1);
             const float y = -1 + 2 * (static_cast<float>(j) + 0.5F) / kAlong;
             const Vec3f p = m.point({radius * std::cos(a), y, radius * std::sin(a)});
-            const Vec3f piece = cross(m.vector({0, 2.0F / kAlong, 0}), m.vector(Vec3f{radius * (std::cos(a1) - std::cos(a0)), 0, radius * (std::sin(a1) - std::sin(a0))}));
+            const Vec3f piece = cross(m.vector({0, 2.0F / kAlong, 0}),
+                                      m.vector(Vec3f{radius * (std::cos(a1) - std::cos(a0)), 0,
+                                                     radius * (std::sin(a1) - std::sin(a0))}));
             const Vec3f out = m.vector({std::cos(a), 0, std::sin(a)});
             const Vec3f directed = dot(piece, out) < 0 ? -piece : piece, wi = p - from;
             const double d2 = static_cast<double>(length_squared(wi));
-            sum += std::max(0.0, static_cast<double>(-dot(directed, wi))) * std::max(0.0, static_cast<double>(dot(normal, wi))) / (d2 * d2);
+            sum += std::max(0.0, static_cast<double>(-dot(directed, wi))) *
+                   std::max(0.0, static_cast<double>(dot(normal, wi))) / (d2 * d2);
         }
     return sum;
 }
@@ -305,7 +328,9 @@ TEST(CylinderLight, AgreesWithQuadrature) {
         b.radius(0.5F).matrix(m).make();
         const double area = static_cast<double>(2 * kPi * 0.5F * std::abs(scale.x) * 2 * scale.y);
         const double expected = 3 / area * mantle_irradiance(m, 0.5F, {0.5F, 0, 1}, {0, 1, 0});
-        EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, {0.5F, 0, 1}, {0, 1, 0}).r) / expected, 1, 3e-3);
+        EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, {0.5F, 0, 1}, {0, 1, 0}).r) /
+                        expected,
+                    1, 3e-3);
         expect_strategies_agree(*b.light, {0.5F, 0, 1});
         expect_bounds_hold(*b.light, {0.5F, 0, 1});
         // At the silhouette the density goes to infinity.
@@ -400,7 +425,8 @@ TEST(SpotLight, LensSetsTheApexBack) {
 }
 
 TEST(SpotLight, HostileParameters) {
-    for (const char* name : {"cone_angle", "penumbra_angle", "cosine_power", "aspect_ratio", "roundness", "lens_radius"}) {
+    for (const char* name : {"cone_angle", "penumbra_angle", "cosine_power", "aspect_ratio",
+                             "roundness", "lens_radius"}) {
         Bench b(node_spot_light());
         b.node.set(name, std::nanf(""));
         b.make();
@@ -425,8 +451,16 @@ TEST(SpotLight, HostileParameters) {
 /// A cube of two triangles a side, outward, with edge 2.
 ShapeGeometry cube() {
     TriangleMesh mesh;
-    mesh.positions = {{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
-    mesh.indices = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 3, 7, 6, 3, 6, 2, 0, 4, 7, 0, 7, 3, 1, 2, 6, 1, 6, 5};
+    mesh.positions = {{{-1, -1, -1},
+                       {1, -1, -1},
+                       {1, 1, -1},
+                       {-1, 1, -1},
+                       {-1, -1, 1},
+                       {1, -1, 1},
+                       {1, 1, 1},
+                       {-1, 1, 1}}};
+    mesh.indices = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+                    3, 7, 6, 3, 6, 2, 0, 4, 7, 0, 7, 3, 1, 2, 6, 1, 6, 5};
     mesh.corner = mesh.indices;
     mesh.face = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
     return {mesh, {}, true};
@@ -448,11 +482,16 @@ TEST(MeshLight, CubeAgreesWithLambertsFormula) {
         b.node.set("intensity", 6.0F);
         b.make();
         ASSERT_NE(b.light, nullptr);
-        const double area = 8 * static_cast<double>(std::abs(scale.x * scale.y) + std::abs(scale.y * scale.z) + std::abs(scale.z * scale.x));
+        const double area =
+            8 * static_cast<double>(std::abs(scale.x * scale.y) + std::abs(scale.y * scale.z) +
+                                    std::abs(scale.z * scale.x));
         // Right below the middle only the bottom is seen.
-        std::vector<Vec3f> bottom{m.point({-1, -1, -1}), m.point({1, -1, -1}), m.point({1, -1, 1}), m.point({-1, -1, 1})};
+        std::vector<Vec3f> bottom{m.point({-1, -1, -1}), m.point({1, -1, -1}), m.point({1, -1, 1}),
+                                  m.point({-1, -1, 1})};
         const double expected = 6 / area * polygon_irradiance(bottom, {0, 0, 0}, {0, 1, 0});
-        EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, {}, {0, 1, 0}, 1U << 17U).r) / expected, 1, 5e-3);
+        EXPECT_NEAR(static_cast<double>(sampled_irradiance(*b.light, {}, {0, 1, 0}, 1U << 17U).r) /
+                        expected,
+                    1, 5e-3);
         expect_directions_follow_density(*b.light, {3, 0, 2});
         expect_bounds_hold(*b.light, {3, 0, 2});
         EXPECT_EQ(look(*b.light, {0, 3, 0}, {0, 1, 0}).pdf, 0) << "inside";

@@ -30,7 +30,9 @@ TriangleMesh to_world(TriangleMesh mesh, const Mat4f& world_from_object) {
 }
 
 NodeType MeshLight::describe() {
-    Describe<MeshLight> d("mesh_light", NodeKind::Light, "A polymesh that shines outward with radiance I / (sum of triangle areas), or I without normalize; I = color * intensity * 2^exposure.");
+    Describe<MeshLight> d("mesh_light", NodeKind::Light,
+                          "A polymesh that shines outward with radiance I / (sum of triangle "
+                          "areas), or I without normalize; I = color * intensity * 2^exposure.");
     d.param("mesh", &MeshLight::mesh, "The polymesh; its own matrix places the light.");
     describe_light_common(d);
     return d.done();
@@ -40,7 +42,9 @@ std::unique_ptr<Light> MeshLight::make_light(NodeContext& context) const {
     const std::optional<Emission> emission = make_emission(*this, context);
     if (!emission) return nullptr;
     if (!mesh) {
-        context.diagnostics().error(Code::InvalidValue, "mesh light \"" + context.node_name().str() + "\" has no mesh", context.where("mesh"), "write the name of a polymesh");
+        context.diagnostics().error(Code::InvalidValue,
+                                    "mesh light \"" + context.node_name().str() + "\" has no mesh",
+                                    context.where("mesh"), "write the name of a polymesh");
         return nullptr;
     }
     Mat4f world_from_object;
@@ -48,10 +52,14 @@ std::unique_ptr<Light> MeshLight::make_light(NodeContext& context) const {
     if (geometry == nullptr) return nullptr;
     TriangleMesh* triangles = std::get_if<TriangleMesh>(&geometry->data);
     if (triangles == nullptr || triangles->positions.empty() || geometry->instance_of) {
-        context.diagnostics().error(Code::InvalidValue, "mesh light \"" + context.node_name().str() + "\" refers to a shape without triangles", context.where("mesh"), "write the name of a polymesh");
+        context.diagnostics().error(
+            Code::InvalidValue,
+            "mesh light \"" + context.node_name().str() + "\" refers to a shape without triangles",
+            context.where("mesh"), "write the name of a polymesh");
         return nullptr;
     }
-    auto light = std::make_unique<TriangleLight>(to_world(std::move(*triangles), world_from_object), *emission, normalize);
+    auto light = std::make_unique<TriangleLight>(
+        to_world(std::move(*triangles), world_from_object), *emission, normalize);
     if (!(light->area() > 0)) warn_no_area(context, "mesh");
     return light;
 }

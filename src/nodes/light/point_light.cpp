@@ -19,7 +19,8 @@ struct PointLight : LightCommon {
 /// A true point: E = I cos / r^2.
 class PointSource final : public Light {
   public:
-    PointSource(Vec3f position, const Emission& emission) : position_(position), emission_(emission) {
+    PointSource(Vec3f position, const Emission& emission)
+        : position_(position), emission_(emission) {
         bounds_.box.grow(position);
         bounds_.intensity = emission.magnitude();
     }
@@ -41,7 +42,8 @@ class PointSource final : public Light {
 /// A sphere of even radiance.
 class SphereSource final : public Light {
   public:
-    SphereSource(Vec3f center, float radius, const Emission& radiance) : center_(center), radius_(radius), radiance_(radiance) {
+    SphereSource(Vec3f center, float radius, const Emission& radiance)
+        : center_(center), radius_(radius), radiance_(radiance) {
         geometry_.data = SphereList{{{center}}, {radius}};
         bounds_.box.grow(center - Vec3f{radius, radius, radius});
         bounds_.box.grow(center + Vec3f{radius, radius, radius});
@@ -61,7 +63,8 @@ class SphereSource final : public Light {
 
   private:
     [[nodiscard]] Color emitted(Vec3f on) const {
-        return radiance_.is_constant() ? radiance_.at(on, {}, {}) : radiance_.at(on, lightsieve::normalize(on - center_), {});
+        return radiance_.is_constant() ? radiance_.at(on, {}, {})
+                                       : radiance_.at(on, lightsieve::normalize(on - center_), {});
     }
 
     Vec3f center_;
@@ -72,9 +75,15 @@ class SphereSource final : public Light {
 };
 
 NodeType PointLight::describe() {
-    Describe<PointLight> d("point_light", NodeKind::Light, "Light from a point to all sides (color * intensity * 2^exposure is its radiant intensity), or from a sphere.");
+    Describe<PointLight> d("point_light", NodeKind::Light,
+                           "Light from a point to all sides (color * intensity * 2^exposure is "
+                           "its radiant intensity), or from a sphere.");
     d.param("position", &PointLight::position, "Centre, in light space.");
-    d.param("radius", &PointLight::radius, "Radius of a shining sphere with radiance I / (pi radius^2), or I without normalize; 0: a true point.").unit("scene units").hard_range(0, kInfinity);
+    d.param("radius", &PointLight::radius,
+            "Radius of a shining sphere with radiance I / (pi radius^2), or I without normalize; "
+            "0: a true point.")
+        .unit("scene units")
+        .hard_range(0, kInfinity);
     describe_light_common(d);
     return d.done();
 }
@@ -87,13 +96,18 @@ std::unique_ptr<Light> PointLight::make_light(NodeContext& context) const {
     if (!emission || !placement || !local || !size) return nullptr;
     const Vec3f center = placement->point(*local);
     if (!is_finite(center)) {
-        context.diagnostics().error(Code::InvalidValue, "point light \"" + context.node_name().str() + "\" lies outside the range of numbers", context.where("position"), "move it nearer");
+        context.diagnostics().error(
+            Code::InvalidValue,
+            "point light \"" + context.node_name().str() + "\" lies outside the range of numbers",
+            context.where("position"), "move it nearer");
         return nullptr;
     }
     const float world_radius = std::max(0.0F, *size) * mean_scale(*placement);
     const float area = kPi * world_radius * world_radius;
-    if (!(area > kMinLightArea) || !std::isfinite(area)) return std::make_unique<PointSource>(center, *emission);
-    return std::make_unique<SphereSource>(center, world_radius, emission->scaled(normalize ? 1 / area : 1));
+    if (!(area > kMinLightArea) || !std::isfinite(area))
+        return std::make_unique<PointSource>(center, *emission);
+    return std::make_unique<SphereSource>(center, world_radius,
+                                          emission->scaled(normalize ? 1 / area : 1));
 }
 
 }  // namespace

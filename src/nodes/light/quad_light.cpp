@@ -56,7 +56,8 @@ class RectangleSource final : public Light {
         const float distance = length(toward);
         const float pdf = view.pdf(s.position);
         if (!(pdf > 0)) return {};
-        return {toward / distance, distance, radiance_.at(s.position, rectangle_.normal(), s.uv), pdf, false};
+        return {toward / distance, distance, radiance_.at(s.position, rectangle_.normal(), s.uv),
+                pdf, false};
     }
     [[nodiscard]] LightEval hit(Vec3f from, const LightHit& at) const override {
         const RectangleView view(rectangle_, from);
@@ -82,12 +83,24 @@ bool is_rectangle(const std::array<Vec3f, 4>& p) {
 
 NodeType QuadLight::describe() {
     Describe<QuadLight> d("quad_light", NodeKind::Light,
-                          "A flat quadrilateral that shines on one side with radiance I / area, or I without normalize; I = color * intensity * 2^exposure.");
-    d.param("vertices", &QuadLight::vertices, "Four corners in light space; light leaves on the side from which they run counter-clockwise.");
-    d.param("resolution", &QuadLight::resolution, "Size of Arnold's table for sampling textured lights.").ignored();
-    d.param("spread", &QuadLight::spread, "1: light leaves to all sides; less: focused along the normal.").range(0, 1).pending();
-    d.param("roundness", &QuadLight::roundness, "Rounds the corners, up to a disc.").range(0, 1).pending();
-    d.param("soft_edge", &QuadLight::soft_edge, "Width of a smooth edge, relative to the size.").range(0, 1).pending();
+                          "A flat quadrilateral that shines on one side with radiance I / area, "
+                          "or I without normalize; I = color * intensity * 2^exposure.");
+    d.param("vertices", &QuadLight::vertices,
+            "Four corners in light space; light leaves on the side from which they run "
+            "counter-clockwise.");
+    d.param("resolution", &QuadLight::resolution,
+            "Size of Arnold's table for sampling textured lights.")
+        .ignored();
+    d.param("spread", &QuadLight::spread,
+            "1: light leaves to all sides; less: focused along the normal.")
+        .range(0, 1)
+        .pending();
+    d.param("roundness", &QuadLight::roundness, "Rounds the corners, up to a disc.")
+        .range(0, 1)
+        .pending();
+    d.param("soft_edge", &QuadLight::soft_edge, "Width of a smooth edge, relative to the size.")
+        .range(0, 1)
+        .pending();
     d.param("portal", &QuadLight::portal, "Only lets skydome light in.").pending();
     describe_light_common(d);
     return d.done();
@@ -98,14 +111,20 @@ std::unique_ptr<Light> QuadLight::make_light(NodeContext& context) const {
     const std::optional<Mat4f> placement = world_from_light(*this, context);
     if (!emission || !placement) return nullptr;
     if (vertices.n * vertices.n_keys < 4) {
-        context.diagnostics().error(Code::InvalidValue, "quad light \"" + context.node_name().str() + "\" has fewer than four corners", context.where("vertices"), "write `vertices 4 1 VECTOR` and four points");
+        context.diagnostics().error(
+            Code::InvalidValue,
+            "quad light \"" + context.node_name().str() + "\" has fewer than four corners",
+            context.where("vertices"), "write `vertices 4 1 VECTOR` and four points");
         return nullptr;
     }
     std::array<Vec3f, 4> p;
     for (std::size_t i = 0; i < 4; ++i) {
         p[i] = placement->point(vertices[i]);
         if (is_finite(p[i])) continue;
-        context.diagnostics().error(Code::InvalidValue, "a corner of quad light \"" + context.node_name().str() + "\" is not finite", context.where("vertices"), "write finite numbers");
+        context.diagnostics().error(
+            Code::InvalidValue,
+            "a corner of quad light \"" + context.node_name().str() + "\" is not finite",
+            context.where("vertices"), "write finite numbers");
         return nullptr;
     }
     // A mirroring matrix turns the winding, but light still leaves along local -Z.
@@ -119,7 +138,8 @@ std::unique_ptr<Light> QuadLight::make_light(NodeContext& context) const {
         return triangles;
     }
     if (!is_rectangle(p)) return triangles;
-    return std::make_unique<RectangleSource>(p, emission->scaled(normalize ? 1 / triangles->area() : 1));
+    return std::make_unique<RectangleSource>(
+        p, emission->scaled(normalize ? 1 / triangles->area() : 1));
 }
 
 }  // namespace

@@ -17,7 +17,12 @@ class Rectangle {
   public:
     /// edge_x, edge_y  from `corner`, orthogonal; the normal is along their cross product
     Rectangle(Vec3f corner, Vec3f edge_x, Vec3f edge_y)
-        : corner_(corner), width_(length(edge_x)), height_(length(edge_y)), axis_x_(edge_x / width_), axis_y_(edge_y / height_), normal_(normalize(cross(edge_x, edge_y))) {}
+        : corner_(corner),
+          width_(length(edge_x)),
+          height_(length(edge_y)),
+          axis_x_(edge_x / width_),
+          axis_y_(edge_y / height_),
+          normal_(normalize(cross(edge_x, edge_y))) {}
     [[nodiscard]] Vec3f corner() const { return corner_; }
     [[nodiscard]] float width() const { return width_; }
     [[nodiscard]] float height() const { return height_; }
@@ -59,7 +64,8 @@ class RectangleView {
         const Turn g2 = Turn::of_cosine(-b1_ * n3), g3 = Turn::of_cosine(-n3 * b0_);
         k_ = (g2 * g3).conjugate();
         const Turn excess = Turn::of_cosine(-b0_ * n1) * Turn::of_cosine(-n1 * b1_) * (g2 * g3);
-        const float angle = std::atan2(static_cast<float>(excess.sine), static_cast<float>(excess.cosine));
+        const float angle =
+            std::atan2(static_cast<float>(excess.sine), static_cast<float>(excess.cosine));
         // Rounding of a vanishing angle must not make it a whole turn.
         solid_angle_ = angle < -kMinSolidAngle ? angle + 2 * kPi : std::max(angle, 0.0F);
     }
@@ -89,7 +95,9 @@ class RectangleView {
     struct Turn {
         double cosine, sine;
         /// The angle in [0, pi] of that cosine.
-        static Turn of_cosine(double c) { return {c, std::sqrt(std::max(0.0, (1 - c) * (1 + c)))}; }
+        static Turn of_cosine(double c) {
+            return {c, std::sqrt(std::max(0.0, (1 - c) * (1 + c)))};
+        }
         [[nodiscard]] Turn conjugate() const { return {cosine, -sine}; }
         friend Turn operator*(Turn a, Turn b) {
             return {a.cosine * b.cosine - a.sine * b.sine, a.cosine * b.sine + a.sine * b.cosine};
@@ -99,7 +107,9 @@ class RectangleView {
     [[nodiscard]] bool by_area() const { return !(solid_angle_ >= kMinSolidAngle); }
 
     [[nodiscard]] Sample at(Vec2f uv) const {
-        return {rectangle_.corner() + rectangle_.axis_x() * (uv.x * rectangle_.width()) + rectangle_.axis_y() * (uv.y * rectangle_.height()), uv};
+        return {rectangle_.corner() + rectangle_.axis_x() * (uv.x * rectangle_.width()) +
+                    rectangle_.axis_y() * (uv.y * rectangle_.height()),
+                uv};
     }
 
     /// Position along the edges for a uniform point on the spherical rectangle.
@@ -110,13 +120,17 @@ class RectangleView {
         const double s = std::sin(half), c = std::cos(half);
         const Turn au = Turn{1 - 2 * s * s, 2 * s * c} * k_;
         const double fu = (au.cosine * b0_ - b1_) / (au.sine == 0 ? kTiny : au.sine);
-        const double xu = std::clamp(std::copysign(-z0_, fu) / std::sqrt(std::max(kTiny, fu * fu + b0_ * b0_ - 1)), x0_, x1_);
+        const double xu = std::clamp(
+            std::copysign(-z0_, fu) / std::sqrt(std::max(kTiny, fu * fu + b0_ * b0_ - 1)), x0_,
+            x1_);
         // The point on that plane's arc, uniform in its height.
         const double d2 = xu * xu + z0_ * z0_;
         const double h0 = y0_ / std::sqrt(d2 + y0_ * y0_), h1 = y1_ / std::sqrt(d2 + y1_ * y1_);
         const double hv = h0 + static_cast<double>(u.y) * (h1 - h0);
-        const double yv = hv * hv < 1 - 1e-12 ? std::clamp(hv * std::sqrt(d2 / (1 - hv * hv)), y0_, y1_) : y1_;
-        return {static_cast<float>((xu - x0_) / (x1_ - x0_)), static_cast<float>((yv - y0_) / (y1_ - y0_))};
+        const double yv =
+            hv * hv < 1 - 1e-12 ? std::clamp(hv * std::sqrt(d2 / (1 - hv * hv)), y0_, y1_) : y1_;
+        return {static_cast<float>((xu - x0_) / (x1_ - x0_)),
+                static_cast<float>((yv - y0_) / (y1_ - y0_))};
     }
 
     static constexpr double kTiny = 1e-300;

@@ -31,7 +31,9 @@ struct SkydomeLight : LightCommon {
 
 /// Texture coordinates of a direction in light space. The middle of every picture shows +Z, with +X to the left.
 Vec2f dome_uv(DomeFormat format, Vec3f d) {
-    if (format == DomeFormat::LatLong) return {0.5F - std::atan2(d.x, d.z) / (2 * kPi), 0.5F + std::asin(std::clamp(d.y, -1.0F, 1.0F)) * kInvPi};
+    if (format == DomeFormat::LatLong)
+        return {0.5F - std::atan2(d.x, d.z) / (2 * kPi),
+                0.5F + std::asin(std::clamp(d.y, -1.0F, 1.0F)) * kInvPi};
     // Both discs: direction around the middle, distance by the angle to +Z. Source: Debevec 1998, "Rendering
     // Synthetic Objects into Real Scenes" (mirrored ball), and his light probe gallery (angular map).
     const float across = std::sqrt(d.x * d.x + d.y * d.y);
@@ -43,7 +45,8 @@ Vec2f dome_uv(DomeFormat format, Vec3f d) {
 
 class DomeSource final : public Light {
   public:
-    DomeSource(const Frame& world_from_light, const Emission& emission, DomeFormat format, std::int32_t resolution)
+    DomeSource(const Frame& world_from_light, const Emission& emission, DomeFormat format,
+               std::int32_t resolution)
         : axes_(world_from_light), emission_(emission), format_(format) {
         if (emission.is_constant()) {
             irradiance_ = kPi * emission.magnitude();
@@ -74,12 +77,20 @@ class DomeSource final : public Light {
     [[nodiscard]] float irradiance() const override { return irradiance_; }
 
   private:
-    [[nodiscard]] Color radiance(Vec3f wi) const { return emission_.toward(wi, dome_uv(format_, axes_.local_from_world(wi))); }
+    [[nodiscard]] Color radiance(Vec3f wi) const {
+        return emission_.toward(wi, dome_uv(format_, axes_.local_from_world(wi)));
+    }
 
     /// The row of a table coordinate.
-    [[nodiscard]] std::size_t row(float v) const { return std::min(static_cast<std::size_t>(std::max(0.0F, v) * static_cast<float>(height_)), height_ - 1); }
+    [[nodiscard]] std::size_t row(float v) const {
+        return std::min(static_cast<std::size_t>(std::max(0.0F, v) * static_cast<float>(height_)),
+                        height_ - 1);
+    }
     /// sin of the latitude at the lower edge of a row; row `height_` is the zenith.
-    [[nodiscard]] double edge(std::size_t y) const { return -std::cos(static_cast<double>(kPi) * static_cast<double>(y) / static_cast<double>(height_)); }
+    [[nodiscard]] double edge(std::size_t y) const {
+        return -std::cos(static_cast<double>(kPi) * static_cast<double>(y) /
+                         static_cast<double>(height_));
+    }
 
     /// Table to light space: even in longitude, and within a row even in the sine of the latitude.
     [[nodiscard]] Vec3f direction(Vec2f uv) const {
@@ -97,7 +108,8 @@ class DomeSource final : public Light {
         std::size_t y = row(0.5F + std::asin(sine) * kInvPi);
         if (sine < edges_[y] && y > 0) --y;
         if (sine >= edges_[y + 1] && y + 1 < height_) ++y;
-        return {longitude < 0 ? longitude + 1 : longitude, (static_cast<float>(y) + 0.5F) / static_cast<float>(height_)};
+        return {longitude < 0 ? longitude + 1 : longitude,
+                (static_cast<float>(y) + 0.5F) / static_cast<float>(height_)};
     }
     /// Density over the sphere for a density of 1 over the table.
     [[nodiscard]] float cells_per_solid_angle(Vec2f uv) const { return density_[row(uv.y)]; }
@@ -109,8 +121,10 @@ class DomeSource final : public Light {
         for (std::size_t y = 0; y <= height_; ++y)
             edges_[y] = static_cast<float>(edge(y));
         for (std::size_t y = 0; y < height_; ++y) {
-            solid_angle[y] = 2 * static_cast<double>(kPi) / static_cast<double>(width_) * (edge(y + 1) - edge(y));
-            density_[y] = static_cast<float>(1 / (solid_angle[y] * static_cast<double>(width_) * static_cast<double>(height_)));
+            solid_angle[y] = 2 * static_cast<double>(kPi) / static_cast<double>(width_) *
+                             (edge(y + 1) - edge(y));
+            density_[y] = static_cast<float>(
+                1 / (solid_angle[y] * static_cast<double>(width_) * static_cast<double>(height_)));
         }
         std::vector<float> cells(width_ * height_);
         parallel_for(height_, 0, [&](std::size_t y) {
@@ -127,14 +141,17 @@ class DomeSource final : public Light {
                 const Vec3f d = direction(center(x, y));
                 mean += value;
                 for (int axis = 0; axis < 3; ++axis)
-                    facing[static_cast<std::size_t>(2 * axis + (d[axis] > 0 ? 0 : 1))] += value * static_cast<double>(std::abs(d[axis]));
+                    facing[static_cast<std::size_t>(2 * axis + (d[axis] > 0 ? 0 : 1))] +=
+                        value * static_cast<double>(std::abs(d[axis]));
             }
         mean /= 4 * static_cast<double>(kPi);
         irradiance_ = static_cast<float>(*std::max_element(facing.begin(), facing.end()));
         for (std::size_t y = 0; y < height_; ++y)
             for (std::size_t x = 0; x < width_; ++x) {
                 float& cell = cells[y * width_ + x];
-                cell = static_cast<float>((static_cast<double>(cell) + static_cast<double>(kFloor) * mean) * solid_angle[y]);
+                cell = static_cast<float>(
+                    (static_cast<double>(cell) + static_cast<double>(kFloor) * mean) *
+                    solid_angle[y]);
             }
         table_ = Distribution2D(cells, width_, height_);
         irradiance_ = std::max(irradiance_, kPi * emission_.least_magnitude());
@@ -145,16 +162,20 @@ class DomeSource final : public Light {
         float sum = 0;
         for (const float dx : {0.25F, 0.75F})
             for (const float dy : {0.25F, 0.75F}) {
-                const Vec2f uv{(static_cast<float>(x) + dx) / static_cast<float>(width_), (static_cast<float>(y) + dy) / static_cast<float>(height_)};
+                const Vec2f uv{(static_cast<float>(x) + dx) / static_cast<float>(width_),
+                               (static_cast<float>(y) + dy) / static_cast<float>(height_)};
                 const Vec3f local = direction(uv);
-                const Color c = emission_.toward(axes_.world_from_local(local), dome_uv(format_, local), 0.5F / static_cast<float>(width_));
+                const Color c =
+                    emission_.toward(axes_.world_from_local(local), dome_uv(format_, local),
+                                     0.5F / static_cast<float>(width_));
                 const float value = Emission::magnitude(c);
                 sum += std::isfinite(value) ? value : 0;
             }
         return sum * 0.25F;
     }
     [[nodiscard]] Vec2f center(std::size_t x, std::size_t y) const {
-        return {(static_cast<float>(x) + 0.5F) / static_cast<float>(width_), (static_cast<float>(y) + 0.5F) / static_cast<float>(height_)};
+        return {(static_cast<float>(x) + 0.5F) / static_cast<float>(width_),
+                (static_cast<float>(y) + 0.5F) / static_cast<float>(height_)};
     }
 
     Frame axes_;  ///< light space in the world
@@ -162,17 +183,27 @@ class DomeSource final : public Light {
     DomeFormat format_;
     std::size_t width_ = 0, height_ = 0;  ///< of the table; 0: an even dome
     Distribution2D table_;
-    std::vector<float> edges_;    ///< sine of the latitude at each row's lower edge, and 1
-    std::vector<float> density_;  ///< of each row: density over the sphere for a density of 1 over the table
+    std::vector<float> edges_;  ///< sine of the latitude at each row's lower edge, and 1
+    std::vector<float>
+        density_;  ///< of each row: density over the sphere for a density of 1 over the table
     float irradiance_ = 0;
 };
 
 NodeType SkydomeLight::describe() {
-    Describe<SkydomeLight> d("skydome_light", NodeKind::Light, "Light from all around with radiance color * intensity * 2^exposure.");
-    d.param("resolution", &SkydomeLight::resolution, "Cells around the horizon of the table from which a linked colour is sampled.").range(kMinResolution, kMaxResolution);
-    d.param("format", &SkydomeLight::format, "Layout of a linked colour's texture coordinates.").names({"mirrored_ball", "angular", "latlong"});
-    d.param("portal_mode", &SkydomeLight::portal_mode, "How light portals act, of which there are none yet.").names({"off", "interior_only", "interior_exterior"}).ignored();
-    d.param("aov_indirect", &LightCommon::aov_indirect, "The light counts as background (B) in light path expressions, not as light (L).");
+    Describe<SkydomeLight> d(
+        "skydome_light", NodeKind::Light,
+        "Light from all around with radiance color * intensity * 2^exposure.");
+    d.param("resolution", &SkydomeLight::resolution,
+            "Cells around the horizon of the table from which a linked colour is sampled.")
+        .range(kMinResolution, kMaxResolution);
+    d.param("format", &SkydomeLight::format, "Layout of a linked colour's texture coordinates.")
+        .names({"mirrored_ball", "angular", "latlong"});
+    d.param("portal_mode", &SkydomeLight::portal_mode,
+            "How light portals act, of which there are none yet.")
+        .names({"off", "interior_only", "interior_exterior"})
+        .ignored();
+    d.param("aov_indirect", &LightCommon::aov_indirect,
+            "The light counts as background (B) in light path expressions, not as light (L).");
     describe_light_common(d);
     return d.done();
 }
@@ -195,7 +226,10 @@ std::unique_ptr<Light> SkydomeLight::make_light(NodeContext& context) const {
     if (!emission || !placement) return nullptr;
     std::optional<Frame> axes = rotation(*placement);
     if (!axes) {
-        context.diagnostics().warning(Code::InvalidValue, "the matrix of skydome \"" + context.node_name().str() + "\" is singular", context.where("matrix"), "the dome is not rotated");
+        context.diagnostics().warning(
+            Code::InvalidValue,
+            "the matrix of skydome \"" + context.node_name().str() + "\" is singular",
+            context.where("matrix"), "the dome is not rotated");
         axes = Frame{};
     }
     return std::make_unique<DomeSource>(*axes, *emission, format, resolution);

@@ -28,9 +28,13 @@ Color dome_irradiance(const Light& light, Vec3f normal) {
     double sum[3] = {};
     for (int y = 0; y < kLatitudes; ++y)
         for (int x = 0; x < 2 * kLatitudes; ++x) {
-            const double theta = (y + 0.5) / kLatitudes * static_cast<double>(kPi), phi = (x + 0.5) / kLatitudes * static_cast<double>(kPi);
-            const Vec3f d{static_cast<float>(std::sin(theta) * std::cos(phi)), static_cast<float>(std::cos(theta)), static_cast<float>(std::sin(theta) * std::sin(phi))};
-            const double weight = std::max(0.0, static_cast<double>(dot(d, normal))) * std::sin(theta) * square(kPi / kLatitudes);
+            const double theta = (y + 0.5) / kLatitudes * static_cast<double>(kPi),
+                         phi = (x + 0.5) / kLatitudes * static_cast<double>(kPi);
+            const Vec3f d{static_cast<float>(std::sin(theta) * std::cos(phi)),
+                          static_cast<float>(std::cos(theta)),
+                          static_cast<float>(std::sin(theta) * std::sin(phi))};
+            const double weight = std::max(0.0, static_cast<double>(dot(d, normal))) *
+                                  std::sin(theta) * square(kPi / kLatitudes);
             const Color c = light.escape(d).radiance;
             for (int i = 0; i < 3; ++i)
                 sum[i] += weight * static_cast<double>(c[i]);
@@ -48,7 +52,8 @@ TEST(SkydomeLight, PictureIsSampledByBrightness) {
     };
     b.node.set("resolution", 400);
     b.make();
-    expect_near(sampled_irradiance(*b.light, {}, {0, 1, 0}, 1U << 17U), dome_irradiance(*b.light, {0, 1, 0}), 4e-3F);
+    expect_near(sampled_irradiance(*b.light, {}, {0, 1, 0}, 1U << 17U),
+                dome_irradiance(*b.light, {0, 1, 0}), 4e-3F);
     EXPECT_NEAR(b.light->irradiance(), average(dome_irradiance(*b.light, {0, 1, 0})), 0.02F);
     expect_strategies_agree(*b.light, {});
     expect_directions_follow_density(*b.light, {});
@@ -64,7 +69,12 @@ TEST(SkydomeLight, PictureIsSampledByBrightness) {
 TEST(SkydomeLight, DetailsBetweenTheSamplesOfTheTableAreNotLost) {
     Bench b(node_skydome_light());
     // A sun much smaller than a cell, somewhere the table does not look.
-    b.context->shader = [](const ShadePoint& at) { return dot(at.direction, normalize(Vec3f{0.31F, 0.17F, 0.43F})) > std::cos(deg_to_rad(0.05F)) ? Color::grey(1e6F) : kBlack; };
+    b.context->shader = [](const ShadePoint& at) {
+        return dot(at.direction, normalize(Vec3f{0.31F, 0.17F, 0.43F})) >
+                       std::cos(deg_to_rad(0.05F))
+                   ? Color::grey(1e6F)
+                   : kBlack;
+    };
     b.node.set("resolution", 16);
     b.make();
     EXPECT_GT(b.light->irradiance(), 0);
@@ -99,7 +109,9 @@ TEST(SkydomeLight, Layouts) {
 
 TEST(SkydomeLight, MatrixTurnsThePicture) {
     Bench b(node_skydome_light());
-    b.context->shader = [](const ShadePoint& at) { return Color{at.uv.x, at.uv.y, at.direction.x}; };
+    b.context->shader = [](const ShadePoint& at) {
+        return Color{at.uv.x, at.uv.y, at.direction.x};
+    };
     b.node.set("resolution", 64);
     // Local X goes to world Z; scale and shift do not matter.
     Mat4f m;
@@ -124,7 +136,9 @@ TEST(SkydomeLight, HostileParameters) {
     EXPECT_EQ(singular.context->diagnostics().n_warnings(), 1U);
 
     Bench nan(node_skydome_light());
-    nan.context->shader = [](const ShadePoint& at) { return at.uv.x < 0.5F ? Color::grey(std::nanf("")) : kWhite; };
+    nan.context->shader = [](const ShadePoint& at) {
+        return at.uv.x < 0.5F ? Color::grey(std::nanf("")) : kWhite;
+    };
     nan.node.set("resolution", -5);
     nan.make();
     for (std::uint32_t i = 0; i < 100; ++i) {

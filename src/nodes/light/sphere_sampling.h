@@ -49,6 +49,8 @@ inline SphereDirection sample_sphere(Vec3f center, float radius, Vec3f from, Vec
 }
 
 /// Whether a ray from `from` meets a sphere there from outside. Rays also meet the far side, from within: it is dark.
-inline bool from_outside(Vec3f from, const LightHit& hit) { return dot(hit.position - from, hit.normal) < 0; }
+inline bool from_outside(Vec3f from, const LightHit& hit) {
+    return dot(hit.position - from, hit.normal) < 0;
+}
 
 }  // namespace lightsieve

@@ -19,7 +19,8 @@ constexpr float kMaxHalfAngle = 89.9F;
 constexpr float kMinRoundness = 0.01F;
 
 struct SpotLight : LightCommon {
-    Array<Vec3f> position{&kOrigin, 1, 1}, look_at{&kLookAt, 1, 1}, up{&kUp, 1, 1};  ///< in light space
+    Array<Vec3f> position{&kOrigin, 1, 1}, look_at{&kLookAt, 1, 1},
+        up{&kUp, 1, 1};                     ///< in light space
     Array<float> radius{&kNoRadius, 1, 1};  ///< in light space; 0: a true point
     float lens_radius = 0;
     float cone_angle = 65, penumbra_angle = 0, cosine_power = 0, aspect_ratio = 1, roundness = 1;
@@ -32,13 +33,16 @@ struct SpotLight : LightCommon {
 class Beam {
   public:
     Beam() = default;
-    Beam(const SpotLight& p, Vec3f axis, Vec3f x) : frame_(Frame::from_z_x(axis, x)), cosine_power_(std::max(0.0F, p.cosine_power)) {
+    Beam(const SpotLight& p, Vec3f axis, Vec3f x)
+        : frame_(Frame::from_z_x(axis, x)), cosine_power_(std::max(0.0F, p.cosine_power)) {
         const float half = std::clamp(p.cone_angle * 0.5F, 0.0F, kMaxHalfAngle);
         outer_ = std::tan(deg_to_rad(half));
         inner_ = std::tan(deg_to_rad(std::clamp(half - p.penumbra_angle, 0.0F, half)));
         stretch_y_ = p.aspect_ratio;
-        if (p.roundness >= 1) exponent_ = 2;
-        else exponent_ = p.roundness < kMinRoundness ? kInfinity : 2 / p.roundness;
+        if (p.roundness >= 1)
+            exponent_ = 2;
+        else
+            exponent_ = p.roundness < kMinRoundness ? kInfinity : 2 / p.roundness;
     }
 
     /// away  from the beam's apex, any length
@@ -72,10 +76,11 @@ class Beam {
         return most * std::pow(1 + std::pow(std::min(x, y) / most, exponent_), 1 / exponent_);
     }
 
-    Frame frame_;              ///< z along the axis
-    float outer_ = 0, inner_ = 0;  ///< tangents of the half angles of the cone and of its fully lit part
-    float stretch_y_ = 1;      ///< width / height
-    float exponent_ = 2;       ///< of the superellipse
+    Frame frame_;  ///< z along the axis
+    float outer_ = 0,
+          inner_ = 0;      ///< tangents of the half angles of the cone and of its fully lit part
+    float stretch_y_ = 1;  ///< width / height
+    float exponent_ = 2;   ///< of the superellipse
     float cosine_power_ = 0;
 };
 
@@ -83,8 +88,14 @@ class SpotSource final : public Light {
   public:
     /// radius    0: a true point; emission: intensity of a point, radiance of a sphere
     /// setback   how far the beam's apex lies behind the lens
-    SpotSource(Vec3f position, float radius, float setback, const Beam& beam, const Emission& emission)
-        : position_(position), apex_(position - beam.axis() * setback), radius_(radius), setback_(setback), beam_(beam), emission_(emission) {
+    SpotSource(Vec3f position, float radius, float setback, const Beam& beam,
+               const Emission& emission)
+        : position_(position),
+          apex_(position - beam.axis() * setback),
+          radius_(radius),
+          setback_(setback),
+          beam_(beam),
+          emission_(emission) {
         const Vec3f reach{radius, radius, radius};
         bounds_.box.grow(position - reach);
         bounds_.box.grow(position + reach);
@@ -92,7 +103,9 @@ class SpotSource final : public Light {
         bounds_.cos_spread = 1;
         // Seen from the lens a set back beam opens to all of the half space.
         bounds_.cos_emission = setback > 0 ? 0 : beam.cos_around();
-        bounds_.intensity = beam.outer_tangent() > 0 ? emission.magnitude() * (radius > 0 ? kPi * radius * radius : 1) : 0;
+        bounds_.intensity = beam.outer_tangent() > 0
+                                ? emission.magnitude() * (radius > 0 ? kPi * radius * radius : 1)
+                                : 0;
         if (radius > 0) geometry_.data = SphereList{{{position}}, {radius}};
     }
 
@@ -103,10 +116,14 @@ class SpotSource final : public Light {
     }
     [[nodiscard]] LightEval hit(Vec3f from, const LightHit& hit) const override {
         const float beam = shape(from);
-        const float pdf = radius_ > 0 && beam > 0 && from_outside(from, hit) ? sphere_pdf(position_, radius_, from) : 0;
+        const float pdf = radius_ > 0 && beam > 0 && from_outside(from, hit)
+                              ? sphere_pdf(position_, radius_, from)
+                              : 0;
         return pdf > 0 ? LightEval{emitted(from) * beam, pdf} : LightEval{};
     }
-    [[nodiscard]] const ShapeGeometry* geometry() const override { return radius_ > 0 ? &geometry_ : nullptr; }
+    [[nodiscard]] const ShapeGeometry* geometry() const override {
+        return radius_ > 0 ? &geometry_ : nullptr;
+    }
     [[nodiscard]] LightBounds bounds() const override { return bounds_; }
 
   private:
@@ -116,7 +133,8 @@ class SpotSource final : public Light {
         if (setback_ > 0 && !(dot(from - position_, beam_.axis()) > 0)) return 0;
         const float beam = beam_.at(away);
         // The apex, not the lens, is where the light spreads from.
-        if (setback_ > 0 && radius_ > 0) return beam * (length_squared(from - position_) / length_squared(away));
+        if (setback_ > 0 && radius_ > 0)
+            return beam * (length_squared(from - position_) / length_squared(away));
         return beam;
     }
     [[nodiscard]] Color emitted(Vec3f from) const { return emission_.toward(from - position_); }
@@ -145,17 +163,36 @@ class SpotSource final : public Light {
 };
 
 NodeType SpotLight::describe() {
-    Describe<SpotLight> d("spot_light", NodeKind::Light, "A cone of light from a point or sphere; color * intensity * 2^exposure is its radiant intensity on the axis.");
+    Describe<SpotLight> d("spot_light", NodeKind::Light,
+                          "A cone of light from a point or sphere; color * intensity * 2^exposure "
+                          "is its radiant intensity on the axis.");
     d.param("position", &SpotLight::position, "Centre, in light space.");
     d.param("look_at", &SpotLight::look_at, "Point that the light shines at, in light space.");
     d.param("up", &SpotLight::up, "Direction that points up in the beam, in light space.");
-    d.param("radius", &SpotLight::radius, "Radius of a shining sphere with radiance I / (pi radius^2), or I without normalize: softer shadows; 0: a true point.").unit("scene units").hard_range(0, kInfinity);
-    d.param("lens_radius", &SpotLight::lens_radius, "Radius of a lens that cuts off the cone: the light spreads from behind it.").unit("scene units").hard_range(0, kInfinity);
-    d.param("cone_angle", &SpotLight::cone_angle, "Full angle of the cone.").unit("deg").hard_range(0, 180);
-    d.param("penumbra_angle", &SpotLight::penumbra_angle, "Width of the soft edge, inside the cone.").unit("deg").range(0, 90);
-    d.param("cosine_power", &SpotLight::cosine_power, "The light falls off as this power of the cosine to the axis.").range(0, 20);
-    d.param("aspect_ratio", &SpotLight::aspect_ratio, "Width of the beam over its height; the width has the cone's angle.").range(0.1F, 10);
-    d.param("roundness", &SpotLight::roundness, "1: an elliptical beam; 0: a rectangular one.").hard_range(0, 1);
+    d.param("radius", &SpotLight::radius,
+            "Radius of a shining sphere with radiance I / (pi radius^2), or I without normalize: "
+            "softer shadows; 0: a true point.")
+        .unit("scene units")
+        .hard_range(0, kInfinity);
+    d.param("lens_radius", &SpotLight::lens_radius,
+            "Radius of a lens that cuts off the cone: the light spreads from behind it.")
+        .unit("scene units")
+        .hard_range(0, kInfinity);
+    d.param("cone_angle", &SpotLight::cone_angle, "Full angle of the cone.")
+        .unit("deg")
+        .hard_range(0, 180);
+    d.param("penumbra_angle", &SpotLight::penumbra_angle,
+            "Width of the soft edge, inside the cone.")
+        .unit("deg")
+        .range(0, 90);
+    d.param("cosine_power", &SpotLight::cosine_power,
+            "The light falls off as this power of the cosine to the axis.")
+        .range(0, 20);
+    d.param("aspect_ratio", &SpotLight::aspect_ratio,
+            "Width of the beam over its height; the width has the cone's angle.")
+        .range(0.1F, 10);
+    d.param("roundness", &SpotLight::roundness, "1: an elliptical beam; 0: a rectangular one.")
+        .hard_range(0, 1);
     describe_light_common(d);
     return d.done();
 }
@@ -168,26 +205,42 @@ std::unique_ptr<Light> SpotLight::make_light(NodeContext& context) const {
     const std::optional<Vec3f> upward = finite_value(up, kUp, "up", context);
     const std::optional<float> size = finite_value(radius, kNoRadius, "radius", context);
     bool good = emission && placement && eye && target && upward && size;
-    for (const auto& [value, name] : {std::pair{&lens_radius, "lens_radius"}, {&cone_angle, "cone_angle"}, {&penumbra_angle, "penumbra_angle"}, {&cosine_power, "cosine_power"}, {&aspect_ratio, "aspect_ratio"}, {&roundness, "roundness"}})
+    for (const auto& [value, name] : {std::pair{&lens_radius, "lens_radius"},
+                                      {&cone_angle, "cone_angle"},
+                                      {&penumbra_angle, "penumbra_angle"},
+                                      {&cosine_power, "cosine_power"},
+                                      {&aspect_ratio, "aspect_ratio"},
+                                      {&roundness, "roundness"}})
         good = finite_value({value, 1, 1}, 0, name, context) && good;
     if (good && !(aspect_ratio > 0)) {
-        context.diagnostics().error(Code::InvalidValue, "the aspect ratio of spot light \"" + context.node_name().str() + "\" is not above 0", context.where("aspect_ratio"), "write a value above 0");
+        context.diagnostics().error(
+            Code::InvalidValue,
+            "the aspect ratio of spot light \"" + context.node_name().str() + "\" is not above 0",
+            context.where("aspect_ratio"), "write a value above 0");
         good = false;
     }
     if (!good) return nullptr;
 
     const Mat4f placed = Mat4f::look_at(*eye, *target, *upward) * *placement;
-    const Vec3f center = placed.point({}), axis = placed.vector({0, 0, -1}), x = placed.vector({1, 0, 0});
+    const Vec3f center = placed.point({}), axis = placed.vector({0, 0, -1}),
+                x = placed.vector({1, 0, 0});
     if (!is_finite(center) || !(length_squared(axis) > 0) || !is_finite(axis)) {
-        context.diagnostics().error(Code::InvalidValue, "spot light \"" + context.node_name().str() + "\" has no direction", context.where("matrix"), "write a matrix that keeps local -Z");
+        context.diagnostics().error(
+            Code::InvalidValue,
+            "spot light \"" + context.node_name().str() + "\" has no direction",
+            context.where("matrix"), "write a matrix that keeps local -Z");
         return nullptr;
     }
     const Beam beam(*this, lightsieve::normalize(axis), x);
     const float scale = mean_scale(*placement), world_radius = std::max(0.0F, *size) * scale;
     const float area = kPi * world_radius * world_radius;
     const bool sphere = area > kMinLightArea && std::isfinite(area);
-    const float setback = lens_radius > 0 && beam.outer_tangent() > 0 ? lens_radius * scale / beam.outer_tangent() : 0;
-    return std::make_unique<SpotSource>(center, sphere ? world_radius : 0, std::isfinite(setback) ? setback : 0, beam, emission->scaled(sphere && normalize ? 1 / area : 1));
+    const float setback = lens_radius > 0 && beam.outer_tangent() > 0
+                              ? lens_radius * scale / beam.outer_tangent()
+                              : 0;
+    return std::make_unique<SpotSource>(center, sphere ? world_radius : 0,
+                                        std::isfinite(setback) ? setback : 0, beam,
+                                        emission->scaled(sphere && normalize ? 1 / area : 1));
 }
 
 }  // namespace

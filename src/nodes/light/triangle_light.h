@@ -25,7 +25,8 @@ class TriangleLight final : public Light {
         double sum = 0;
         faces_.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
-            const Vec3f a = p[mesh.indices[3 * i]], b = p[mesh.indices[3 * i + 1]], c = p[mesh.indices[3 * i + 2]];
+            const Vec3f a = p[mesh.indices[3 * i]], b = p[mesh.indices[3 * i + 1]],
+                        c = p[mesh.indices[3 * i + 2]];
             const Vec3f double_area = cross(b - a, c - a);
             areas[i] = length(double_area) * 0.5F;
             faces_[i].normal = normalize(double_area);
@@ -69,7 +70,9 @@ class TriangleLight final : public Light {
     [[nodiscard]] LightEval hit(Vec3f from, const LightHit& hit) const override {
         return area_ > 0 ? at(from, hit.position, hit.primitive, hit.uv) : LightEval{};
     }
-    [[nodiscard]] const ShapeGeometry* geometry() const override { return area_ > 0 ? &geometry_ : nullptr; }
+    [[nodiscard]] const ShapeGeometry* geometry() const override {
+        return area_ > 0 ? &geometry_ : nullptr;
+    }
     [[nodiscard]] LightBounds bounds() const override { return bounds_; }
 
   private:
@@ -84,7 +87,8 @@ class TriangleLight final : public Light {
         const float distance_squared = length_squared(back);
         const float facing = dot(face.normal, back);  // distance * cos
         if (!(facing > 0)) return {};
-        const float pdf = face.pdf_area * (distance_squared * std::sqrt(distance_squared) / facing);
+        const float pdf =
+            face.pdf_area * (distance_squared * std::sqrt(distance_squared) / facing);
         if (!std::isfinite(pdf)) return {};
         return {emission_.at(on, face.normal, uv), pdf};
     }
@@ -106,9 +110,12 @@ class TriangleLight final : public Light {
         bounds_.axis = normalize(mean);
         bounds_.cos_spread = 1;
         for (std::size_t i = 0; i < faces_.size(); ++i)
-            if (areas[i] > 0) bounds_.cos_spread = std::min(bounds_.cos_spread, dot(faces_[i].normal, bounds_.axis));
+            if (areas[i] > 0)
+                bounds_.cos_spread =
+                    std::min(bounds_.cos_spread, dot(faces_[i].normal, bounds_.axis));
         // Normals are rounded too: leave room, but keep a flat light flat.
-        bounds_.cos_spread = bounds_.cos_spread > 1 - 1e-6F ? 1 : std::max(-1.0F, bounds_.cos_spread - 1e-6F);
+        bounds_.cos_spread =
+            bounds_.cos_spread > 1 - 1e-6F ? 1 : std::max(-1.0F, bounds_.cos_spread - 1e-6F);
         float most = length(mean);
         for (const float s : seen)
             most = std::max(most, s);

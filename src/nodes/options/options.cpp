@@ -233,7 +233,9 @@ void describe_nodes(Describe<Options>& d) {
 }
 
 void describe_switches(Describe<Options>& d) {
-    d.param("abort_on_error", &Options::abort_on_error, "Errors in expressions stop the render; off: their AOVs are black and the rest renders.");
+    d.param(
+        "abort_on_error", &Options::abort_on_error,
+        "Errors in expressions stop the render; off: their AOVs are black and the rest renders.");
     d.param("abort_on_license_fail", &Options::abort_on_license_fail, "Arnold's licence check.")
         .ignored();
     d.param("skip_license_check", &Options::skip_license_check, "Arnold's licence check.")

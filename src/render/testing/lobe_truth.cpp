@@ -25,7 +25,9 @@ using Sums = std::map<std::string, std::array<double, 3>>;
 class Lobes {
   public:
     Lobes(const Scene& scene, const SeenPoint& point) : scene_(scene) {
-        const auto object = std::find_if(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& o) { return o.name.view() == point.shape; });
+        const auto object =
+            std::find_if(scene.objects.begin(), scene.objects.end(),
+                         [&](const SceneObject& o) { return o.name.view() == point.shape; });
         if (object == scene.objects.end()) throw std::runtime_error("no shape " + point.shape);
         ShadePoint at;
         at.position = point.position;
@@ -69,30 +71,38 @@ LobeSums to_colors(const Sums& sums) {
 
 }  // namespace
 
-LobeSums integrate_over_quad(const Scene& scene, const SeenPoint& point, Vec3f corner, Vec3f u, Vec3f v, int n) {
+LobeSums integrate_over_quad(const Scene& scene, const SeenPoint& point, Vec3f corner, Vec3f u,
+                             Vec3f v, int n) {
     const Lobes lobes(scene, point);
     Sums sums;
     const Vec3f normal = cross(u, v);  // its length is the area
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
-            const float s = (static_cast<float>(i) + 0.5F) / static_cast<float>(n), t = (static_cast<float>(j) + 0.5F) / static_cast<float>(n);
+            const float s = (static_cast<float>(i) + 0.5F) / static_cast<float>(n),
+                        t = (static_cast<float>(j) + 0.5F) / static_cast<float>(n);
             const Vec3f toward = corner + u * s + v * t - point.position;
             const float distance = length(toward);
             const Vec3f wi = toward / distance;
-            const float solid_angle = std::abs(dot(normal, wi)) / (distance * distance * static_cast<float>(n) * static_cast<float>(n));
+            const float solid_angle =
+                std::abs(dot(normal, wi)) /
+                (distance * distance * static_cast<float>(n) * static_cast<float>(n));
             lobes.add(wi, Color::grey(solid_angle), sums);
         }
     return to_colors(sums);
 }
 
-LobeSums integrate_over_sphere(const Scene& scene, const SeenPoint& point, const std::function<Color(Vec3f)>& radiance, int n) {
+LobeSums integrate_over_sphere(const Scene& scene, const SeenPoint& point,
+                               const std::function<Color(Vec3f)>& radiance, int n) {
     const Lobes lobes(scene, point);
     Sums sums;
     const Frame frame = Frame::from_z(point.normal);
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < 2 * n; ++j) {
-            const float theta = (static_cast<float>(i) + 0.5F) * kPi / static_cast<float>(n), phi = (static_cast<float>(j) + 0.5F) * kPi / static_cast<float>(n);
-            const Vec3f wi = frame.world_from_local({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+            const float theta = (static_cast<float>(i) + 0.5F) * kPi / static_cast<float>(n),
+                        phi = (static_cast<float>(j) + 0.5F) * kPi / static_cast<float>(n);
+            const Vec3f wi =
+                frame.world_from_local({std::sin(theta) * std::cos(phi),
+                                        std::sin(theta) * std::sin(phi), std::cos(theta)});
             const float solid_angle = std::sin(theta) * square(kPi / static_cast<float>(n));
             lobes.add(wi, radiance(wi) * solid_angle, sums);
         }

@@ -13,10 +13,14 @@ namespace lightsieve::testing {
 namespace {
 
 /// "NAME" to "NAME TYPE": colours unless the name is one of the few data layers.
-std::string with_type(std::string aov) { return aov.find(' ') == std::string::npos ? aov + " RGB" : aov; }
+std::string with_type(std::string aov) {
+    return aov.find(' ') == std::string::npos ? aov + " RGB" : aov;
+}
 
 bool allowed(const Error& item, const std::vector<std::string>& warnings) {
-    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& w) { return item.message.find(w) != std::string::npos; });
+    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& w) {
+        return item.message.find(w) != std::string::npos;
+    });
 }
 
 }  // namespace
@@ -48,11 +52,13 @@ std::string node(std::string_view type, std::string_view name, std::string_view 
     return out + "\n}\n";
 }
 
-std::string frame_text(int width, int height, int aa_samples, std::string_view camera, std::string_view options) {
+std::string frame_text(int width, int height, int aa_samples, std::string_view camera,
+                       std::string_view options) {
     std::string out = "options\n{\n";
     const auto line = [&](std::string_view param, const std::string& value) {
         // What the caller writes wins: a parameter may stand only once.
-        if (options.find(std::string(param) + ' ') == std::string_view::npos) out += ' ' + std::string(param) + ' ' + value + '\n';
+        if (options.find(std::string(param) + ' ') == std::string_view::npos)
+            out += ' ' + std::string(param) + ' ' + value + '\n';
     };
     line("xres", std::to_string(width));
     line("yres", std::to_string(height));
@@ -69,39 +75,72 @@ std::string frame_text(int width, int height, int aa_samples, std::string_view c
 std::string ortho_camera(Vec3f eye, Vec3f target, float width, Vec3f up) {
     const std::string half = text_of(width / 2);
     return node("ortho_camera", "cam",
-                " position " + text_of(eye) + "\n look_at " + text_of(target) + "\n up " + text_of(up) + "\n screen_window_min -" + half + " -" + half + "\n screen_window_max " + half + ' ' + half);
+                " position " + text_of(eye) + "\n look_at " + text_of(target) + "\n up " +
+                    text_of(up) + "\n screen_window_min -" + half + " -" + half +
+                    "\n screen_window_max " + half + ' ' + half);
 }
 
 std::string persp_camera(Vec3f eye, Vec3f target, float fov_deg, Vec3f up) {
-    return node("persp_camera", "cam", " position " + text_of(eye) + "\n look_at " + text_of(target) + "\n up " + text_of(up) + "\n fov " + text_of(fov_deg));
+    return node("persp_camera", "cam",
+                " position " + text_of(eye) + "\n look_at " + text_of(target) + "\n up " +
+                    text_of(up) + "\n fov " + text_of(fov_deg));
 }
 
-std::string quad(std::string_view name, Vec3f a, Vec3f b, Vec3f c, Vec3f d, std::string_view shader, std::string_view more) {
+std::string from_above(float width, float height) {
+    return ortho_camera({0, height, 0}, {0, 0, 0}, width, {0, 0, -1});
+}
+
+std::string at_the_origin() { return ortho_camera({0.7F, 0.5F, 0.4F}, {0, 0, 0}, 1e-3F); }
+
+std::string lambert(std::string_view name, float kd) {
+    return node("lambert", name, " Kd " + text_of(kd));
+}
+
+std::string square_light(std::string_view name, float y, float half_size, std::string_view more) {
+    const float h = half_size;
+    const std::string corners = text_of(Vec3f{-h, y, -h}) + "  " + text_of(Vec3f{h, y, -h}) +
+                                "  " + text_of(Vec3f{h, y, h}) + "  " + text_of(Vec3f{-h, y, h});
+    return node("quad_light", name, " vertices 4 1 VECTOR " + corners + '\n' + std::string(more));
+}
+
+std::string quad(std::string_view name, Vec3f a, Vec3f b, Vec3f c, Vec3f d,
+                 std::string_view shader, std::string_view more) {
     return node("polymesh", name,
-                " nsides 1 1 UINT 4\n vidxs 4 1 UINT 0 1 2 3\n uvlist 4 1 VECTOR2 0 0 1 0 1 1 0 1\n vlist 4 1 VECTOR " + text_of(a) + "  " + text_of(b) + "  " + text_of(c) + "  " + text_of(d) + "\n shader " +
-                    std::string(shader) + '\n' + std::string(more));
+                " nsides 1 1 UINT 4\n vidxs 4 1 UINT 0 1 2 3\n uvlist 4 1 VECTOR2 0 0 1 0 1 1 0 "
+                "1\n vlist 4 1 VECTOR " +
+                    text_of(a) + "  " + text_of(b) + "  " + text_of(c) + "  " + text_of(d) +
+                    "\n shader " + std::string(shader) + '\n' + std::string(more));
 }
 
-std::string floor(std::string_view name, float y, float half_size, std::string_view shader, std::string_view more) {
+std::string floor(std::string_view name, float y, float half_size, std::string_view shader,
+                  std::string_view more) {
     const float h = half_size;
     return quad(name, {-h, y, -h}, {-h, y, h}, {h, y, h}, {h, y, -h}, shader, more);
 }
 
-std::string sphere(std::string_view name, Vec3f center, float radius, std::string_view shader, std::string_view more) {
-    return node("sphere", name, " center " + text_of(center) + "\n radius " + text_of(radius) + "\n shader " + std::string(shader) + '\n' + std::string(more));
+std::string sphere(std::string_view name, Vec3f center, float radius, std::string_view shader,
+                   std::string_view more) {
+    return node("sphere", name,
+                " center " + text_of(center) + "\n radius " + text_of(radius) + "\n shader " +
+                    std::string(shader) + '\n' + std::string(more));
 }
 
-TestScene::TestScene(const std::string& text, const RenderOptions& options, const std::vector<std::string>& allowed_warnings) {
+TestScene::TestScene(const std::string& text, const RenderOptions& options,
+                     const std::vector<std::string>& allowed_warnings) {
     const Document document = read_ass(text, "test.ass", {}, diagnostics_);
-    graph_ = std::make_unique<SceneGraph>(build_graph(document, builtin_registry(), {}, diagnostics_));
+    graph_ =
+        std::make_unique<SceneGraph>(build_graph(document, builtin_registry(), {}, diagnostics_));
     scene_ = compile_scene(*graph_, options, diagnostics_);
     for (const Error& item : diagnostics_.items())
-        if (item.severity == Severity::Warning && !allowed(item, allowed_warnings)) throw std::runtime_error("a test's scene has warnings:\n" + diagnostics_.render());
-    if (!scene_) throw std::runtime_error("a test's scene does not compile:\n" + diagnostics_.render());
+        if (item.severity == Severity::Warning && !allowed(item, allowed_warnings))
+            throw std::runtime_error("a test's scene has warnings:\n" + diagnostics_.render());
+    if (!scene_)
+        throw std::runtime_error("a test's scene does not compile:\n" + diagnostics_.render());
 }
 
 bool Picture::has(std::string_view name) const {
-    return std::any_of(result_.layers.begin(), result_.layers.end(), [&](const FrameLayer& l) { return l.info.name == name; });
+    return std::any_of(result_.layers.begin(), result_.layers.end(),
+                       [&](const FrameLayer& l) { return l.info.name == name; });
 }
 
 const FrameLayer& Picture::layer(std::string_view name) const {
@@ -110,7 +149,8 @@ const FrameLayer& Picture::layer(std::string_view name) const {
     std::string known;
     for (const FrameLayer& l : result_.layers)
         known += ' ' + l.info.name;
-    throw std::runtime_error("the picture has no layer \"" + std::string(name) + "\", but" + known);
+    throw std::runtime_error("the picture has no layer \"" + std::string(name) + "\", but" +
+                             known);
 }
 
 Color Picture::color(std::string_view name, std::size_t pixel) const {
@@ -131,7 +171,8 @@ Color Picture::mean(std::string_view name) const {
         for (int c = 0; c < 3; ++c)
             sum[c] += static_cast<double>(color(name, i)[c]);
     const double n = static_cast<double>(n_pixels());
-    return {static_cast<float>(sum[0] / n), static_cast<float>(sum[1] / n), static_cast<float>(sum[2] / n)};
+    return {static_cast<float>(sum[0] / n), static_cast<float>(sum[1] / n),
+            static_cast<float>(sum[2] / n)};
 }
 
 double Picture::mean_alpha(std::string_view name) const {
@@ -144,14 +185,18 @@ double Picture::mean_alpha(std::string_view name) const {
 Picture render(const TestScene& scene) {
     Diagnostics diagnostics;
     Picture picture(render_scene(scene.scene(), {}, diagnostics));
-    if (!diagnostics.items().empty()) throw std::runtime_error("a test's render complains:\n" + diagnostics.render());
+    if (!diagnostics.items().empty())
+        throw std::runtime_error("a test's render complains:\n" + diagnostics.render());
     return picture;
 }
 
-Picture render(const std::string& text, const RenderOptions& options) { return render(TestScene(text, options)); }
+Picture render(const std::string& text, const RenderOptions& options) {
+    return render(TestScene(text, options));
+}
 
 std::string scene_file(std::string_view name) {
-    const std::string path = std::string(LIGHTSIEVE_SOURCE_DIR) + "/tests/scenes/" + std::string(name);
+    const std::string path =
+        std::string(LIGHTSIEVE_SOURCE_DIR) + "/tests/scenes/" + std::string(name);
     std::ifstream in(path);
     std::stringstream text;
     text << in.rdbuf();

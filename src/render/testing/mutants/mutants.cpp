@@ -27,11 +27,15 @@ struct Mutant {
 
 class Mutants : public ::testing::TestWithParam<Mutant> {};
 
-INSTANTIATE_TEST_SUITE_P(Faults, Mutants,
-                         ::testing::Values(Mutant{Fault::CoatAsSpecular, "coat_as_specular", "single lobes"}, Mutant{Fault::DrawnLobeTakesAll, "drawn_lobe_takes_all", "lobes under a quad"},
-                                           Mutant{Fault::TransmissionAsDiffuse, "transmission_as_diffuse", "single lobes"}, Mutant{Fault::LightHitAsObject, "light_hit_as_object", "direct light is direct"},
-                                           Mutant{Fault::DepthFromDrawnLobe, "depth_from_drawn_lobe", "depth limits by lobe"}),
-                         [](const auto& made) { return std::string(made.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Faults, Mutants,
+    ::testing::Values(
+        Mutant{Fault::CoatAsSpecular, "coat_as_specular", "single lobes"},
+        Mutant{Fault::DrawnLobeTakesAll, "drawn_lobe_takes_all", "lobes under a quad"},
+        Mutant{Fault::TransmissionAsDiffuse, "transmission_as_diffuse", "single lobes"},
+        Mutant{Fault::LightHitAsObject, "light_hit_as_object", "direct light is direct"},
+        Mutant{Fault::DepthFromDrawnLobe, "depth_from_drawn_lobe", "depth limits by lobe"}),
+    [](const auto& made) { return std::string(made.param.name); });
 
 TEST_P(Mutants, AreKilled) {
     std::string killers;
@@ -39,7 +43,8 @@ TEST_P(Mutants, AreKilled) {
     for (const NamedCheck& check : lobe_checks()) {
         const Verdict verdict = check.run();
         if (!verdict) killers += "\n  " + check.name + ": " + verdict.why;
-        EXPECT_FALSE(verdict.good && check.name == GetParam().killer) << check.name << " does not notice";
+        EXPECT_FALSE(verdict.good && check.name == GetParam().killer)
+            << check.name << " does not notice";
     }
     EXPECT_FALSE(killers.empty()) << "no check notices";
     std::printf("%s is noticed by:%s\n", GetParam().name, killers.c_str());
