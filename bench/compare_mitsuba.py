@@ -11,6 +11,7 @@ the mean squared difference of two independent renders, its mean over the pictur
 from __future__ import annotations
 
 import argparse
+import itertools
 import pathlib
 import sys
 import tempfile
@@ -22,6 +23,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import measure  # noqa: E402
+
 from scenes import cornell_box  # noqa: E402
 
 
@@ -71,7 +73,7 @@ def main() -> None:
                 pictures[sampler].append(image[..., :3])
 
     least = {name: min(values) for name, values in seconds.items()}
-    noise = {name: variance(list(zip(p[:-1], p[1:], strict=True))) for name, p in pictures.items()}
+    noise = {name: variance(list(itertools.pairwise(p))) for name, p in pictures.items()}
     mean = {name: float(np.mean(p)) for name, p in pictures.items()}
     print(f"{'':24} {'seconds':>9} {'variance':>11} {'mean':>9}")
     for name in seconds:
