@@ -5,6 +5,7 @@
 #   make demo      renders scenes/showcase.ass with every built-in AOV to out/showcase.exr and out/showcase.png
 #   make test      all tests but the very long ones
 #   make bigtest   the very long ones
+#   make bench     how fast it renders, what it takes, what AOVs cost: a few minutes; bench/README.md explains the tables
 #   make format    rewrites C++ and Python in the project's style;  make lint  checks it
 #   make docs      rewrites the pages that follow from the code;  make stubs  the modules' types
 #   NATIVE=1       uses every instruction of this processor; the result does not run on older ones
@@ -23,7 +24,7 @@ python_sources := $(shell find python -name '*.py' -o -name '*.pyi' 2>/dev/null)
 native := $(if $(filter 1 ON on yes,$(NATIVE)),ON,OFF)
 cmake_options := -C build-dir=$(BUILD) -C cmake.define.LIGHTSIEVE_TESTS=ON -C cmake.define.LIGHTSIEVE_NATIVE=$(native)
 
-.PHONY: setup demo test bigtest packages dev cpp_tests stubs docs format lint clean
+.PHONY: setup demo test bigtest bench packages dev cpp_tests stubs docs format lint clean
 setup: $(VENV)/.installed
 
 # The distribution's packages: a look at the list when they are all there.
@@ -70,6 +71,9 @@ test: dev cpp_tests
 
 bigtest: dev cpp_tests
 	$(BIN)/python -m pytest -m big
+
+bench: setup
+	$(BIN)/python bench/render_bench.py
 
 # What follows from the code: the modules' type stubs and the generated pages.
 stubs: dev

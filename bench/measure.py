@@ -14,6 +14,7 @@ import resource
 import sys
 import time
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -67,8 +68,10 @@ class Measured:
 
 
 def peak_mb() -> float:
-    """Most memory that this process has used [MB]."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    """Most memory that this program has used [MB]."""
+    # Not ru_maxrss: that starts with the peak of the process which started this one.
+    (line,) = [x for x in Path("/proc/self/status").read_text().splitlines() if "VmHWM" in x]
+    return int(line.split()[1]) / 1024
 
 
 def cpu_seconds() -> float:
@@ -98,7 +101,8 @@ def compile_scene(
     options.write_files = False
     compiled = _core.CompiledScene(scene, options)
     if not compiled.usable or compiled.n_errors:
-        raise RuntimeError("\n".join(str(d) for d in compiled.diagnostics))
+        errors = [d.rendered for d in compiled.diagnostics if d.severity == "error"]
+        raise RuntimeError("\n".join(errors))
     return compiled
 
 

@@ -2,7 +2,7 @@
 //
 //     render_profile SCENE.ass [SAMPLES_PER_PIXEL [THREADS [builtins]]]
 //
-// "builtins" asks for every built-in AOV in every light group beside the beauty. No Russian roulette, no files.
+// "builtins" asks for every built-in AOV, and for it in every light group, beside the beauty. No Russian roulette, no files.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -27,8 +27,12 @@ int profile(int argc, char** argv) {
     options.roulette_depth = -1;
     options.write_files = false;
     if (argc > 4 && std::string_view(argv[4]) == "builtins")
-        for (const lpe::Builtin& row : lpe::builtins())
-            options.aovs.push_back(std::string(row.name) + "_* RGB");
+        for (const lpe::Builtin& row : lpe::builtins()) {
+            const std::string name(row.name);
+            if (name != "RGBA") options.aovs.push_back(name + " RGB");
+            // An albedo ends at no light: it has no groups.
+            if (name.find("albedo") == std::string::npos) options.aovs.push_back(name + "_* RGB");
+        }
 
     Diagnostics diagnostics;
     Registry registry;

@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""Renders the scenes of bench/scenes and prints how fast that goes, what it takes and what AOVs cost.
+
+    python bench/render_bench.py [--quick] [--json] [--rounds N] [--threads N]
+
+First table: samples and rays a second and the peak memory of three scenes, the beauty alone. Second table: all built-in AOVs in
+all light groups against the beauty alone. Only sampling is timed, no file is written. Each line is a process of its own
+(measure.py), so that its peak memory is that of its scene; the two variants of a line of the second table take turns in one
+process. The least of the rounds counts: whatever else the machine does only ever adds.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+from measure import Job  # noqa: E402
+
+import lightsieve  # noqa: E402
+from scenes import ceiling_panels, cornell_box, terrain  # noqa: E402
+
+N_GROUPS = 8
+
+
+@dataclass(frozen=True)
+class Size:
+    """How much there is to do.
+
+    Args:
+        resolution: width and height [pixels].
+        spp: samples a pixel.
+        n_triangles: of the terrain.
+        rounds: renders of each variant.
+    """
+
+    resolution: int
+    spp: int
+    n_triangles: int
+    rounds: int
+
+
+FULL = Size(512, 16, 2_000_000, 3)
+QUICK = Size(128, 9, 100_000, 2)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene of the first table, or of the second.
+
+    Args:
+        name: as the table prints it.
+        write: makes the .ass file.
+    """
+
+    name: str
+    write: Callable[[Path, Size], None]
+
+
+def _cornell(n_groups: int) -> Callable[[Path, Size], None]:
+    return lambda path, size: (
+        path.write_text(cornell_box.ass(n_groups, resolution=size.resolution)) and None
+    )
+
+
+def _panels(path: Path, size: Size) -> None:
+    path.write_text(ceiling_panels.ass(size.resolution))
+
+
+def _terrain(path: Path, size: Size) -> None:
+    terrain.write(path, size.n_triangles, size.resolution)
+
+
+SCENES = (
+    Scene("Cornell box: mirror, glass, rough metal", _cornell(0)),
+    Scene("terrain under a dome", _terrain),
+    Scene("64 ceiling panels", _panels),
+)
+# The same lamp cut into eight groups: the same picture as with one.
+AOV_SCENES = (
+    Scene(f"Cornell box, {N_GROUPS} groups", _cornell(N_GROUPS)),
+    Scene(f"64 ceiling panels, {ceiling_panels.N_GROUPS} groups", _panels),
+)
+
+
+def all_builtins() -> list[str]:
+    """Outputs for every built-in AOV and for each of its light groups."""
+    out: list[str] = []
+    for builtin in lightsieve.lpe.builtins():
+        # The beauty is the scene's own output.
+        if builtin.name != "RGBA":
+            out.append(f"{builtin.name} RGB")
+        # An albedo ends at no light: it has no groups.
+        if "albedo" not in builtin.name:
+            out.append(f"{builtin.name}_* RGB")
+    return out
+
+
+def measured(job: Job) -> list[dict[str, Any]]:
+    """What measure.py says of a job: one object a variant."""
+    command = [sys.executable, str(HERE / "measure.py"), json.dumps(asdict(job))]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"measure.py failed on {job.scene}")  # it has said why
+    return json.loads(done.stdout)  # type: ignore[no-any-return]
+
+
+def run(size: Size, threads: int) -> dict[str, Any]:
+    """Measures everything.
+
+    Returns:
+        The document that --json prints.
+    """
+    document: dict[str, Any] = {
+        "version": lightsieve.__version__,
+        "threads": threads or os.cpu_count(),
+        **asdict(size),
+        "scenes": [],
+        "aov_cost": [],
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.ass"
+        for scene in SCENES:
+            print(f"{scene.name} ...", file=sys.stderr)
+            scene.write(path, size)
+            job = Job(str(path), rounds=size.rounds, threads=threads, spp=size.spp)
+            (beauty,) = measured(job)
+            beauty["samples_per_second"] = beauty["samples"] / beauty["seconds"]
+            beauty["rays_per_second"] = beauty["rays"] / beauty["seconds"]
+            document["scenes"].append({"name": scene.name, **beauty})
+        for scene in AOV_SCENES:
+            print(f"{scene.name} ...", file=sys.stderr)
+            scene.write(path, size)
+            variants = [[], all_builtins()]
+            job = Job(str(path), variants, size.rounds, threads, size.spp)
+            beauty, all_aovs = measured(job)
+            document["aov_cost"].append(
+                {
+                    "name": scene.name,
+                    "beauty": beauty,
+                    "all": all_aovs,
+                    "cost": all_aovs["seconds"] / beauty["seconds"] - 1,
+                    "processor_cost": all_aovs["cpu_seconds"] / beauty["cpu_seconds"] - 1,
+                }
+            )
+    return document
+
+
+def print_tables(document: dict[str, Any]) -> None:
+    """The document for people."""
+    size = f"{document['resolution']} x {document['resolution']}, {document['spp']} samples"
+    print(
+        f"lightsieve {document['version']}, {document['threads']} threads, {size} a pixel, "
+        f"terrain of {document['n_triangles']:,} triangles, least of {document['rounds']} rounds\n"
+    )
+    print(
+        f"{'':42}{'time':>9}{'samples/s':>12}{'rays/s':>13}"
+        f"{'compile':>11}{'peak memory':>13}{'at start':>10}"
+    )
+    for s in document["scenes"]:
+        print(
+            f"{s['name']:42}{s['seconds']:7.2f} s{s['samples_per_second']:12,.0f}"
+            f"{s['rays_per_second']:13,.0f}{s['compile_seconds']:9.2f} s"
+            f"{s['peak_mb']:10.0f} MB{s['start_mb']:7.0f} MB"
+        )
+    print(
+        f"\n{'all built-ins in all groups':42}{'AOVs':>7}{'beauty':>11}{'with AOVs':>11}"
+        f"{'cost':>9}{'cost, processor time':>23}"
+    )
+    for s in document["aov_cost"]:
+        print(
+            f"{s['name']:42}{s['all']['n_aovs']:7}{s['beauty']['seconds']:9.2f} s"
+            f"{s['all']['seconds']:9.2f} s{s['cost']:9.1%}{s['processor_cost']:23.1%}"
+        )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="small, in half a minute: is it alive?"
+    )
+    parser.add_argument("--json", action="store_true", help="one JSON document")
+    parser.add_argument("--rounds", type=int, default=0, help="renders of each variant")
+    parser.add_argument("--threads", type=int, default=0, help="0: as many as the machine has")
+    args = parser.parse_args()
+    size = QUICK if args.quick else FULL
+    if args.rounds > 0:
+        size = Size(size.resolution, size.spp, size.n_triangles, args.rounds)
+    document = run(size, args.threads)
+    if args.json:
+        print(json.dumps(document, indent=2))
+    else:
+        print_tables(document)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,26 @@
+"""`make bench` prints what bench/README.md says, at its smallest size."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+
+def test_the_driver_measures_three_scenes_and_the_cost_of_aovs(root: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, root / "bench/render_bench.py", "--quick", "--rounds", "1", "--json"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    document = json.loads(done.stdout)
+    n_samples = document["resolution"] ** 2 * document["spp"]
+    assert [s["samples"] for s in document["scenes"]] == [n_samples] * 3
+    assert all(s["rays"] > n_samples for s in document["scenes"])
+    # Each process starts afresh: none begins with what the one before it needed.
+    assert all(s["peak_mb"] > s["start_mb"] + 5 for s in document["scenes"])
+    # 35 built-ins, and 26 of them again in eight groups and `default`.
+    assert [s["all"]["n_aovs"] for s in document["aov_cost"]] == [35 + 26 * 9] * 2
