@@ -98,6 +98,8 @@ class ClosureSet {
     [[nodiscard]] Color albedo(std::size_t i) const noexcept;
     [[nodiscard]] bool delta(std::size_t i) const noexcept;
     [[nodiscard]] Vec3f wo() const { return wo_; }
+    /// The same as lobes of a frame see it: local, at or above the horizon.
+    [[nodiscard]] Vec3f local_wo(std::uint8_t frame) const { return wo_local_[frame]; }
 
   private:
     [[nodiscard]] const LobeRecord& record(int lobe) const;

@@ -27,15 +27,9 @@ Color multiple(Color c, float mean) {
     return {multiple(c.r, mean), multiple(c.g, mean), multiple(c.b, mean)};
 }
 
-float non_negative(float v) { return v > 0 && std::isfinite(v) ? v : 0.0F; }
-
 Vec3f mirrored(Vec3f w) { return {w.x, w.y, -w.z}; }
 
 }  // namespace
-
-DiffuseSurface::DiffuseSurface(Color reflectance, float diffuse_roughness) noexcept
-    : color(non_negative(reflectance.r), non_negative(reflectance.g), non_negative(reflectance.b)),
-      roughness(std::min(non_negative(diffuse_roughness), 1.0F)) {}
 
 Color DiffuseSurface::value(Vec3f wo, Vec3f wi) const noexcept {
     if (roughness == 0) return color * (kInvPi * wi.z);

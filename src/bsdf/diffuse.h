@@ -18,11 +18,17 @@ struct DiffuseSurface {
 
     DiffuseSurface() = default;
     /// Clamps the roughness to [0,1] and negative colours to 0; not finite becomes 0.
-    DiffuseSurface(Color reflectance, float diffuse_roughness) noexcept;
+    DiffuseSurface(Color reflectance, float diffuse_roughness) noexcept
+        : color(non_negative(reflectance.r), non_negative(reflectance.g),
+                non_negative(reflectance.b)),
+          roughness(std::min(non_negative(diffuse_roughness), 1.0F)) {}
     /// f(wo, wi) * cos theta_i for two directions above the surface [1/sr].
     [[nodiscard]] Color value(Vec3f wo, Vec3f wi) const noexcept;
     /// Directional albedo for cos theta_o in (0,1].
     [[nodiscard]] Color albedo(float cos_theta_o) const noexcept;
+
+  private:
+    static float non_negative(float v) { return v > 0 && std::isfinite(v) ? v : 0.0F; }
 };
 
 /// Diffuse reflection, event <RD>.

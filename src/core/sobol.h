@@ -40,7 +40,6 @@ class Sampler {
 
     /// The two-dimensional point of pair number `pair`; the same arguments always give the same point.
     [[nodiscard]] Vec2f at2(std::uint32_t pair) const;
-    [[nodiscard]] float at1(std::uint32_t pair) const { return at2(pair).x; }
     /// The points of four neighbouring pairs, `pair` to `pair + 3`: the same as of at2, for the price of about one.
     [[nodiscard]] std::array<Vec2f, 4> at2x4(std::uint32_t pair) const;
 

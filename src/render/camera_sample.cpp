@@ -14,13 +14,14 @@ CameraSample CameraSampler::sample(int x, int y, std::uint32_t index) const {
                      {},
                      {}};
     const PixelFilter& filter = *scene_.plan.views[pass_.sampling_view].filter;
-    out.offset = filter.sample(out.sampler.at2(kFilterPair)).offset;
+    const std::array<Vec2f, 4> points = out.sampler.at2x4(0);
+    out.offset = filter.sample(points[kFilterPair]).offset;
     const Vec2f film{
         (static_cast<float>(x) + 0.5F + out.offset.x) / static_cast<float>(scene_.settings.width),
         (static_cast<float>(y) + 0.5F + out.offset.y) /
             static_cast<float>(scene_.settings.height)};
-    out.time = pass_.camera->sample_time(out.sampler.at1(kTimePair));
-    out.ray = pass_.camera->ray(film, out.sampler.at2(kLensPair), out.time);
+    out.time = pass_.camera->sample_time(points[kTimePair].x);
+    out.ray = pass_.camera->ray(film, points[kLensPair], out.time);
     out.camera_from_world = pass_.camera->camera_from_world(out.time);
     return out;
 }

@@ -38,9 +38,7 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, int depth) 
         type.prepare(out->block(), context);
     }
     out->may_be_transparent = shader_may_be_transparent(node);
-    const auto* transmission = node.find<float>("transmission");
-    out->may_tint_shadows =
-        transmission != nullptr && (*transmission > 0 || node.is_linked("transmission"));
+    out->may_tint_shadows = shader_may_tint_shadows(node);
     scene_->shaders.push_back(std::move(program));
     programs_[&node] = out;
     return out;
@@ -73,6 +71,15 @@ bool Compiler::shader_may_be_transparent(const NodeInstance& node) const {
     if (node.is_linked("opacity")) return true;
     if (opacity->type == ParamType::Rgb) return !(node.get<Color>("opacity") == kWhite);
     return opacity->type == ParamType::Float && node.get<float>("opacity") != 1;
+}
+
+/// What ClosureSet::transmit_shadow says: transmission without caustics.
+bool Compiler::shader_may_tint_shadows(const NodeInstance& node) {
+    const auto* transmission = node.find<float>("transmission");
+    if (transmission == nullptr) return false;
+    const auto* caustics = node.find<bool>("caustics");
+    const bool casts_light = caustics != nullptr && *caustics && !node.is_linked("caustics");
+    return !casts_light && (*transmission > 0 || node.is_linked("transmission"));
 }
 
 /// Shapes without a shader are white clay: a lambert with its defaults.

@@ -54,6 +54,7 @@ class Compiler {
     // compile_shaders.cpp
     void link_parameters(const NodeInstance& node, ShaderProgram& program, int depth);
     [[nodiscard]] bool shader_may_be_transparent(const NodeInstance& node) const;
+    [[nodiscard]] static bool shader_may_tint_shadows(const NodeInstance& node);
     const ShaderProgram* default_shader();
     void make_background();
 

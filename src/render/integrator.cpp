@@ -97,7 +97,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         if (!lights_only_) {
             add_emission();
             gather_channels();
-            if (scene_.plan.wants_probes) add_probes();
+            if (scene_.plan.wants_probes && tracker_.live_probe()) add_probes();
         } else {
             n_channels_ = 0;
         }
@@ -644,13 +644,13 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
                                 [](const PathGroup& g) { return g.key.exits; });
 
     const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
-    last_ = {surface.at.position,
-             transmissive_ ? Vec3f{0, 0, 0} : surface.outward,
-             surface.object->lights,
-             pdf,
-             delta,
-             surface.object->tampers_with_shadows(),
-             segment_ + 1};
+    last_.position = surface.at.position;
+    last_.pick_normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
+    last_.lights = surface.object->lights;
+    last_.pdf = pdf;
+    last_.delta = delta;
+    last_.samples_only = surface.object->tampers_with_shadows();
+    last_.next_segment = segment_ + 1;
     footprint_.width += footprint_.spread * surface.t;
     ray = {offset_ray_origin(surface.at.position, side), sample.wi, 0, kInfinity, surface.at.time};
     return true;

@@ -46,6 +46,7 @@ class LogTracker {
         terms_.scatter(machine_, channels, factors, step, random);
     }
     [[nodiscard]] bool live() const { return !terms_.empty(); }
+    [[nodiscard]] static bool live_probe() { return true; }
     template <class Value>
     void add(Terminal terminal, const Value& value, float scale) {
         for (const auto& t : terms_.all())

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,7 +33,8 @@ struct DepthLimits {
 };
 
 /// Depth counters and last ray type of a share of a path.
-struct GroupKey {
+/// Eight bytes that are copied and compared as one word.
+struct alignas(8) GroupKey {
     std::uint8_t diffuse = 0, specular = 0, transmission = 0, volume = 0;
     std::uint8_t forgotten =
         0;  ///< bounces of which only the number still matters, see DepthRules
@@ -40,7 +42,9 @@ struct GroupKey {
     bool lights_only =
         false;  ///< past a depth limit: the ray may still meet lights, everything else is black
     bool exits = false;  ///< past a depth limit, and the shader says exit_to_background
-    friend bool operator==(const GroupKey&, const GroupKey&) = default;
+    friend bool operator==(const GroupKey& a, const GroupKey& b) {
+        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    }
     [[nodiscard]] int total() const {
         return diffuse + specular + transmission + volume + forgotten;
     }

@@ -19,10 +19,21 @@ KeyBlend blend_at(std::size_t n_keys, float time) {
     return {i, i + 1, x - static_cast<float>(i)};
 }
 
-Vec3f key_value(const std::vector<std::vector<Vec3f>>& keys, const KeyBlend& k, std::size_t i) {
-    if (keys.size() == 1 || k.first == k.second) return keys[0][i];
-    return keys[k.first][i] * (1 - k.f) + keys[k.second][i] * k.f;
-}
+/// A list with motion keys at one time. Things at rest, which most are, cost one look-up a point.
+class AtTime {
+  public:
+    AtTime(const std::vector<std::vector<Vec3f>>& keys, float time)
+        : AtTime(keys, blend_at(keys.size(), time)) {}
+    [[nodiscard]] Vec3f operator[](std::size_t i) const {
+        return f_ == 0 ? first_[i] : first_[i] * (1 - f_) + second_[i] * f_;
+    }
+
+  private:
+    AtTime(const std::vector<std::vector<Vec3f>>& keys, KeyBlend k)
+        : first_(keys[k.first].data()), second_(keys[k.second].data()), f_(k.f) {}
+    const Vec3f *first_, *second_;
+    float f_;
+};
 
 /// Placement of an object at a time: matrix and inverse.
 struct Placement {
@@ -45,7 +56,8 @@ auto with_placement(const SceneObject& object, float time, const Body& body) {
 struct LocalPoint {
     Vec3f position;
     Vec3f geometric_normal;  ///< not normalised
-    Vec3f shading_normal;  ///< world space, as modelled (not turned to the viewer); not normalised
+    /// World space, as modelled (not turned to the viewer), not normalised; zero: the geometric one.
+    Vec3f shading_normal;
     Vec3f dp_du;           ///< zero if there is no uv
     Vec2f uv;
     float uv_per_unit = 0;  ///< uv length per object-space length
@@ -73,12 +85,12 @@ Vec3f bent_to_viewer(Vec3f normal, Vec3f wo) {
 /// Interpolates the normals of a triangle's corners, world space.
 Vec3f smooth_normal(const TriangleMesh& mesh, std::size_t first, std::array<float, 3> weights,
                     const View& view, Vec3f face_normal) {
-    const KeyBlend k = blend_at(mesh.normals.size(), view.time);
+    const AtTime normals(mesh.normals, view.time);
     // The side of the surface that is seen decides which way corner normals face.
     const float side = dot(face_normal, view.wo) < 0 ? -1.0F : 1.0F;
     Vec3f sum;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3f local = key_value(mesh.normals, k, mesh.normal_indices[first + i]);
+        const Vec3f local = normals[mesh.normal_indices[first + i]];
         const Vec3f corner =
             normalize(view.place.object_from_world.normal_by_inverse(local), face_normal);
         sum += bent_to_viewer(corner * side, view.wo) * weights[i];
@@ -87,20 +99,18 @@ Vec3f smooth_normal(const TriangleMesh& mesh, std::size_t first, std::array<floa
 }
 
 LocalPoint resolve(const TriangleMesh& mesh, const RayHit& hit, const View& view) {
-    const float time = view.time;
     const std::size_t t = std::size_t{hit.primitive} * 3;
     const float b1 = hit.barycentric.x, b2 = hit.barycentric.y, b0 = 1 - b1 - b2;
-    const KeyBlend k = blend_at(mesh.positions.size(), time);
-    const Vec3f p0 = key_value(mesh.positions, k, mesh.indices[t]),
-                p1 = key_value(mesh.positions, k, mesh.indices[t + 1]),
-                p2 = key_value(mesh.positions, k, mesh.indices[t + 2]);
+    const AtTime positions(mesh.positions, view.time);
+    const Vec3f p0 = positions[mesh.indices[t]], p1 = positions[mesh.indices[t + 1]],
+                p2 = positions[mesh.indices[t + 2]];
     LocalPoint out;
     out.position = p0 * b0 + p1 * b1 + p2 * b2;
     out.geometric_normal = cross(p1 - p0, p2 - p0);
-    out.shading_normal =
-        normalize(view.place.object_from_world.normal_by_inverse(out.geometric_normal));
     if (!mesh.normals.empty())
-        out.shading_normal = smooth_normal(mesh, t, {b0, b1, b2}, view, out.shading_normal);
+        out.shading_normal = smooth_normal(
+            mesh, t, {b0, b1, b2}, view,
+            normalize(view.place.object_from_world.normal_by_inverse(out.geometric_normal)));
     if (!mesh.face.empty()) out.face = mesh.face[hit.primitive];
     if (!mesh.shader_index.empty()) out.shader = mesh.shader_index[hit.primitive];
     if (mesh.uvs.empty()) return out;
@@ -117,14 +127,12 @@ LocalPoint resolve(const TriangleMesh& mesh, const RayHit& hit, const View& view
 }
 
 LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const View& view) {
-    const KeyBlend k = blend_at(spheres.centers.size(), view.time);
-    const Vec3f center = key_value(spheres.centers, k, hit.primitive);
+    const Vec3f center = AtTime(spheres.centers, view.time)[hit.primitive];
     const float radius = spheres.radii[hit.primitive];
     const Vec3f n = normalize(view.place.object_from_world.point(view.along) - center);
     LocalPoint out;
     out.position = center + n * radius;  // back onto the sphere: t is only as good as a float
     out.geometric_normal = n;
-    out.shading_normal = view.place.object_from_world.normal_by_inverse(n);
     out.dp_du = {n.z, 0, -n.x};
     out.uv = {0.5F + std::atan2(n.x, n.z) * (0.5F * kInvPi),
               0.5F + std::asin(std::clamp(n.y, -1.0F, 1.0F)) * kInvPi};
@@ -145,7 +153,9 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     const float outside = object.invert_normals ? -1.0F : 1.0F;
     const Vec3f geometric =
         normalize(place.object_from_world.normal_by_inverse(local.geometric_normal) * outside);
-    const Vec3f shading = normalize(local.shading_normal * outside, geometric);
+    const Vec3f shading = local.shading_normal == Vec3f{}
+                              ? geometric
+                              : normalize(local.shading_normal * outside, geometric);
     ShadePoint& at = out.at;
     at.position = place.world_from_object.point(local.position);
     at.wo = wo;
@@ -153,8 +163,9 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     at.entering = dot(geometric, wo) >= 0;
     out.outward = at.entering ? geometric : -geometric;
     at.normal = dot(shading, out.outward) < 0 ? -shading : shading;
-    const Vec3f tangent = place.world_from_object.vector(local.dp_du);
-    out.frame = Frame::from_z_x(at.normal, tangent);
+    const bool has_uv = !(local.dp_du == Vec3f{});
+    const Vec3f tangent = has_uv ? place.world_from_object.vector(local.dp_du) : Vec3f{};
+    out.frame = has_uv ? Frame::from_z_x(at.normal, tangent) : Frame::from_z(at.normal);
     at.tangent = out.frame.x;
     at.uv = local.uv;
     at.barycentric = hit.barycentric;

@@ -67,6 +67,13 @@ class AovTracker {
             if (!set.terms.empty()) return true;
         return false;
     }
+    /// Whether any AOV can still receive an albedo from this path.
+    [[nodiscard]] bool live_probe() const {
+        for (const Set& set : sets_)
+            for (const auto& t : set.terms.all())
+                if (set.machine.automaton->live_probe(t.state)) return true;
+        return false;
+    }
 
     /// Light that arrives without another scattering event: value(group).
     template <class Value>

@@ -54,7 +54,7 @@ class RectangleSource final : public Light {
         const RectangleView::Sample s = view.sample(u);
         const Vec3f toward = s.position - from;
         const float distance = length(toward);
-        const float pdf = view.pdf(s.position);
+        const float pdf = view.pdf(s);
         if (!(pdf > 0)) return {};
         return {toward / distance, distance, radiance_.at(s.position, rectangle_.normal(), s.uv),
                 pdf, false};
@@ -62,7 +62,7 @@ class RectangleSource final : public Light {
     [[nodiscard]] LightEval hit(Vec3f from, const LightHit& at) const override {
         const RectangleView view(rectangle_, from);
         if (!view.visible()) return {};
-        return {radiance_.at(at.position, rectangle_.normal(), at.uv), view.pdf(at.position)};
+        return {radiance_.at(at.position, rectangle_.normal(), at.uv), view.pdf({at.position, at.uv})};
     }
     [[nodiscard]] const ShapeGeometry* geometry() const override { return &geometry_; }
     [[nodiscard]] LightBounds bounds() const override { return bounds_; }

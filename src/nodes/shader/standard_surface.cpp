@@ -71,9 +71,6 @@ struct StandardSurface {
     void eval(const ShadePoint& at, ClosureSet& out) const;
 };
 
-/// Smallest cosine to the viewer that lobes are asked for.
-constexpr float kHorizon = 1e-5F;
-
 // Layers ------------------------------------------------------------------------------------------------------------
 
 /// One evaluation: walks down the layers and adds their lobes.
@@ -106,6 +103,7 @@ class Layering {
     }
 
     void add_emission() {
+        if (!(s_.emission > 0)) return;
         const Color radiance = left_ * (positive(s_.emission) * positive(s_.emission_color));
         if (!is_black(radiance)) out_.emit(kEmission, radiance);
     }
@@ -187,18 +185,14 @@ class Layering {
     [[nodiscard]] Oriented oriented(Vec3f linked_normal, float anisotropy, float rotation) {
         const bool own_normal = !(linked_normal == Vec3f{});
         if (!own_normal && !(anisotropy > 0))
-            return {0, local_wo({at_.tangent, cross(at_.normal, at_.tangent), at_.normal})};
+            return {0, out_.local_wo(0)};
         const Vec3f n = shading_normal(at_, linked_normal);
         Frame frame = Frame::from_z_x(n, s_.tangent == Vec3f{} ? at_.tangent : s_.tangent);
         // A full turn for rotation = 1, from x toward -y: standard_surface's OSL reference.
         if (const float angle = 2 * kPi * rotation; angle != 0 && std::isfinite(angle))
             frame = Frame::from_z_x(n, frame.x * std::cos(angle) - frame.y * std::sin(angle));
-        return {out_.add_frame(frame), local_wo(frame)};
-    }
-    /// The viewer's direction in a frame, as ClosureSet has it: lifted to the horizon.
-    [[nodiscard]] Vec3f local_wo(const Frame& frame) const {
-        const Vec3f wo = frame.local_from_world(at_.wo);
-        return {wo.x, wo.y, std::clamp(wo.z, kHorizon, 1.0F)};
+        const std::uint8_t index = out_.add_frame(frame);
+        return {index, out_.local_wo(index)};
     }
     [[nodiscard]] Oriented specular_frame() {
         if (!(s_.specular_anisotropy > 0)) return base_;
