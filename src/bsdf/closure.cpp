@@ -22,10 +22,10 @@ Color valid_weight(Color c) {
 
 void ClosureSet::begin(Vec3f wo, const Frame& shading) {
     wo_ = wo;
-    n_ = n_emissions_ = n_frames_ = 0;
+    n_ = n_subsurfaces_ = n_emissions_ = n_frames_ = 0;
     n_dropped_ = 0;
     scale_ = kWhite;
-    transparency_ = shadow_transmission_ = matte_ = kBlack;
+    transparency_ = shadow_transmission_ = matte_ = interior_ = kBlack;
     records_ = {};
     add_frame(shading);
 }
@@ -56,6 +56,16 @@ void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_
         return;
     }
     closures_[n_++] = {model, total, &record(lobe), frame, caustics};
+}
+
+void ClosureSet::add_subsurface(int lobe, const SubsurfaceMedium& medium, Color weight) {
+    const Color total = valid_weight(scale_ * weight);
+    if (is_black(total)) return;
+    if (n_subsurfaces_ == kMaxSubsurfaces) {
+        ++n_dropped_;
+        return;
+    }
+    subsurfaces_[n_subsurfaces_++] = {medium, total, &record(lobe)};
 }
 
 void ClosureSet::emit(int lobe, Color radiance) {

@@ -12,6 +12,7 @@
 
 #include "bsdf/lobe.h"
 #include "bsdf/models.h"
+#include "bsdf/subsurface.h"
 #include "core/event.h"
 #include "core/vec.h"
 
@@ -24,7 +25,7 @@ struct LobeRecord {
     std::uint32_t event = 0;        ///< position in the scene's list of events, for logs
     EventKind kind = EventKind::Reflection;
     EventLobe lobe = EventLobe::Diffuse;
-    bool subsurface = false;  ///< scatters like TD, but counts as a subsurface ray
+    bool subsurface = false;  ///< TD that walks below the surface: counts as a subsurface ray
     bool exit_to_background =
         false;  ///< rays past their depth limit see the background instead of black
 };
@@ -44,9 +45,19 @@ struct Emission {
     const LobeRecord* record = nullptr;
 };
 
+/// Light that goes below the surface and comes back somewhere else. Never evaluated for a direction: the renderer walks.
+struct SubsurfaceClosure {
+    SubsurfaceMedium medium;
+    Color weight;  ///< multiplies what the walk brings
+    const LobeRecord* record = nullptr;
+
+    [[nodiscard]] Color albedo() const { return weight * medium.reflectance; }
+};
+
 class ClosureSet {
   public:
     static constexpr std::size_t kMaxClosures = 24;
+    static constexpr std::size_t kMaxSubsurfaces = 4;
     static constexpr std::size_t kMaxFrames = 6;
     static constexpr std::size_t kMaxEmissions = 6;
 
@@ -69,6 +80,8 @@ class ClosureSet {
     void add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame, bool caustics);
     /// Registers a frame (turned to the side of the first one); returns its number.
     std::uint8_t add_frame(const Frame& frame);
+    /// Adds subsurface scattering through lobe number `lobe` of the shader.
+    void add_subsurface(int lobe, const SubsurfaceMedium& medium, Color weight);
     /// Adds emission through lobe number `lobe` of the shader.
     void emit(int lobe, Color radiance);
     /// Adds to the part of the hit that rays pass straight through; 1 - opacity.
@@ -76,17 +89,23 @@ class ClosureSet {
     /// Adds to what shadow rays of diffusely reflected light pass where other rays are refracted: with `caustics` off, glass
     /// casts tinted shadows instead of focusing light. Makes no event, as opacity.
     void transmit_shadow(Color weight) { shadow_transmission_ += scale_ * weight; }
+    /// What lies behind the surface absorbs light: coefficient [1/scene unit]. The last call counts.
+    void set_interior(Color absorption) { interior_ = absorption; }
     /// The hit is a hole in the picture: black, and alpha is reduced by this.
     void matte(Color weight) { matte_ += scale_ * weight; }
 
     // For the integrator ---------------------------------------------------------------------------------------
     [[nodiscard]] std::span<const Closure> closures() const { return {closures_.data(), n_}; }
+    [[nodiscard]] std::span<const SubsurfaceClosure> subsurfaces() const {
+        return {subsurfaces_.data(), n_subsurfaces_};
+    }
     [[nodiscard]] std::span<const Emission> emissions() const {
         return {emissions_.data(), n_emissions_};
     }
     [[nodiscard]] Color transparency() const { return transparency_; }
     [[nodiscard]] Color shadow_transmission() const { return shadow_transmission_; }
     [[nodiscard]] Color matte() const { return matte_; }
+    [[nodiscard]] Color interior() const { return interior_; }
     /// Closures that did not fit; counted by the renderer, reported at the end.
     [[nodiscard]] std::uint32_t n_dropped() const { return n_dropped_; }
 
@@ -105,13 +124,14 @@ class ClosureSet {
     [[nodiscard]] const LobeRecord& record(int lobe) const;
 
     std::array<Closure, kMaxClosures> closures_;
+    std::array<SubsurfaceClosure, kMaxSubsurfaces> subsurfaces_;
     std::array<Emission, kMaxEmissions> emissions_;
     std::array<Frame, kMaxFrames> frames_;
     std::array<Vec3f, kMaxFrames> wo_local_;
-    std::size_t n_ = 0, n_emissions_ = 0, n_frames_ = 0;
+    std::size_t n_ = 0, n_subsurfaces_ = 0, n_emissions_ = 0, n_frames_ = 0;
     std::uint32_t n_dropped_ = 0;
     std::span<const LobeRecord> records_;
-    Color scale_{1, 1, 1}, transparency_, shadow_transmission_, matte_;
+    Color scale_{1, 1, 1}, transparency_, shadow_transmission_, matte_, interior_;
     Vec3f wo_;
 };
 

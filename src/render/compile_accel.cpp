@@ -20,6 +20,8 @@ std::uint32_t mask_of(const SceneObject& object) {
 }  // namespace
 
 void Compiler::find_mask_types() {
+    for (const auto& shader : scene_->shaders)
+        if (shader->type().reads_ray_type) scene_->mask_types = kScattered;
     for (const SceneObject& object : scene_->objects)
         for (const std::uint8_t mask : {object.visibility, object.sidedness}) {
             const std::uint8_t scattered = mask & kScattered;

@@ -1,27 +1,41 @@
 // Which events the scene can make, and the engine's numbers for them. See compiler.h.
 #include "render/compiler.h"
+
+#include <algorithm>
+
 #include "render/faults.h"
 
 namespace lightsieve {
 namespace {
 
-Event event_of(const LobeInfo& lobe) {
+/// The event of a lobe: its label, or the one that the scene gives it, and the shape's.
+Event event_of(const LobeInfo& lobe, const EventLabels& labels) {
     Event event{lobe.kind, lobe.lobe, {}};
+    if (!labels.object.empty()) event.labels.push_back(labels.object);
     if (active_fault() == Fault::TransmissionAsDiffuse && lobe.kind == EventKind::Transmission)
         event.lobe = EventLobe::Diffuse;
     if (active_fault() == Fault::CoatAsSpecular && lobe.label == "coat") return event;
-    if (!lobe.label.empty()) event.labels.push_back(lobe.label);
+    const std::string& label = labels.closure.empty() ? lobe.label : labels.closure;
+    if (!label.empty() && label != labels.object) event.labels.push_back(label);
+    std::sort(event.labels.begin(), event.labels.end());
     return event;
 }
 
 /// A shader without closures shows its colour unlit: emission.
-const Event kUnlit{EventKind::Object, EventLobe::None, {}};
+const LobeInfo kUnlit{0, EventKind::Object, EventLobe::None, {}, {}};
 
 Event light_event(const SceneLight& light) {
     return {EventKind::Light, EventLobe::None, {light.group}};
 }
 Event background_event(const SceneLight& light) {
     return {EventKind::Background, EventLobe::None, {light.group}};
+}
+
+/// A switch of a shader; off if it has none of that name.
+bool switch_of(const ShaderProgram& shader, const char* name) {
+    const ParamInfo* info = shader.type().find(name);
+    return info != nullptr && info->type == ParamType::Bool &&
+           *reinterpret_cast<const bool*>(shader.block() + info->offset);
 }
 
 }  // namespace
@@ -36,8 +50,8 @@ std::uint32_t Compiler::event_index(const Event& event) {
 void Compiler::gather_events() {
     for (const ShaderProgram* shader : surface_shaders_) {
         for (const LobeInfo& lobe : shader->type().lobes)
-            event_index(event_of(lobe));
-        if (shader->type().eval_closure == nullptr) event_index(kUnlit);
+            event_index(event_of(lobe, shader->labels));
+        if (shader->type().eval_closure == nullptr) event_index(event_of(kUnlit, shader->labels));
     }
     for (const SceneLight& light : scene_->lights) {
         event_index(light_event(light));
@@ -62,13 +76,15 @@ void Compiler::fill_records() {
     for (ShaderProgram* shader : surface_shaders_) {
         shader->records.clear();
         for (const LobeInfo& lobe : shader->type().lobes)
-            fill(shader->records.emplace_back(), event_of(lobe));
-        if (const ParamInfo* exit = shader->type().find("exit_to_background");
-            exit != nullptr && exit->type == ParamType::Bool)
-            for (LobeRecord& record : shader->records)
-                record.exit_to_background =
-                    *reinterpret_cast<const bool*>(shader->block() + exit->offset);
-        if (shader->type().eval_closure == nullptr) fill(shader->records.emplace_back(), kUnlit);
+            fill(shader->records.emplace_back(), event_of(lobe, shader->labels));
+        const bool exits = switch_of(*shader, "exit_to_background"),
+                   thin = switch_of(*shader, "thin_walled");
+        for (std::size_t i = 0; i < shader->records.size(); ++i) {
+            shader->records[i].exit_to_background = exits;
+            shader->records[i].subsurface = shader->type().lobes[i].below_surface && !thin;
+        }
+        if (shader->type().eval_closure == nullptr)
+            fill(shader->records.emplace_back(), event_of(kUnlit, shader->labels));
     }
     for (SceneLight& light : scene_->lights) {
         light.as_light = program.terminal(light_event(light));

@@ -9,8 +9,14 @@ constexpr int kMaxShaderDepth = 128;
 
 }  // namespace
 
-const ShaderProgram* Compiler::program_for(const NodeInstance& node, int depth) {
-    if (const auto known = programs_.find(&node); known != programs_.end()) return known->second;
+const ShaderProgram* Compiler::program_for(const NodeInstance& node, const EventLabels& labels,
+                                           int depth) {
+    EventLabels wanted = labels;
+    // The outermost label holds: a wrapper says what its part is called.
+    if (const auto* own = node.find<Name>("label"); own != nullptr && wanted.closure.empty())
+        wanted.closure = own->str();
+    const std::pair key(&node, wanted);
+    if (const auto known = programs_.find(key); known != programs_.end()) return known->second;
     if (failed_shaders_.count(&node) != 0) return nullptr;
     const NodeType& type = node.type();
     if (type.eval_closure == nullptr && type.eval_value == nullptr) {
@@ -29,18 +35,33 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, int depth) 
             node.where(), "shorten the chain of links");
         return nullptr;
     }
-    auto program =
-        std::make_unique<ShaderProgram>(type, static_cast<const std::byte*>(node.block()));
+    const ShaderProgram*& first = prepared_[&node];
+    auto program = std::make_unique<ShaderProgram>(
+        type, first != nullptr ? first->block() : static_cast<const std::byte*>(node.block()));
     ShaderProgram* out = program.get();
-    link_parameters(node, *out, depth);
-    if (type.prepare != nullptr) {
-        CompileContext context(*this, &node, node.name());
-        type.prepare(out->block(), context);
+    out->labels = wanted;
+    if (first != nullptr) {
+        // Only labels differ: what was loaded and reported once is taken over.
+        for (const ShaderProgram::Patch& patch : first->patches())
+            out->add_patch(patch);
+        link_closures(node, *out, depth);
+    } else {
+        link_parameters(node, *out, depth);
+        link_closures(node, *out, depth);
+        if (type.prepare != nullptr) {
+            CompileContext context(*this, &node, node.name());
+            type.prepare(out->block(), context);
+        }
+        prepared_[&node] = out;
     }
     out->may_be_transparent = shader_may_be_transparent(node);
     out->may_tint_shadows = shader_may_tint_shadows(node);
+    for (const ShaderProgram* part : out->parts) {
+        out->may_be_transparent |= part->may_be_transparent;
+        out->may_tint_shadows |= part->may_tint_shadows;
+    }
     scene_->shaders.push_back(std::move(program));
-    programs_[&node] = out;
+    programs_[key] = out;
     return out;
 }
 
@@ -52,15 +73,26 @@ void Compiler::link_parameters(const NodeInstance& node, ShaderProgram& program,
                                  link.where, "the element keeps its own value");
             continue;
         }
-        const ShaderProgram* source = program_for(*link.source, depth + 1);
+        const ShaderProgram* source = program_for(*link.source, {}, depth + 1);
         if (source == nullptr) continue;
         program.add_patch(
             {link.param->offset, link.param->type, link.component, source, link.source_component});
     }
+}
+
+/// Shaders whose closures the node takes over carry its labels.
+void Compiler::link_closures(const NodeInstance& node, ShaderProgram& program, int depth) {
     for (const ParamInfo& param : node.type().params) {
         if (param.type != ParamType::Closure || param.is_array) continue;
         auto* ref = reinterpret_cast<ShaderRef*>(program.block() + param.offset);
-        if (ref->node != nullptr) ref->program = program_for(*ref->node, depth + 1);
+        if (ref->node == nullptr) continue;
+        const ShaderProgram* part = program_for(*ref->node, program.labels, depth + 1);
+        if (part == nullptr) continue;
+        ref->program = part;
+        ref->run = [](const void* shader, const ShadePoint& at, ClosureSet& out) {
+            static_cast<const ShaderProgram*>(shader)->closures(at, out);
+        };
+        program.parts.push_back(part);
     }
 }
 
@@ -83,14 +115,17 @@ bool Compiler::shader_may_tint_shadows(const NodeInstance& node) {
 }
 
 /// Shapes without a shader are white clay: a lambert with its defaults.
-const ShaderProgram* Compiler::default_shader() {
-    if (default_shader_ != nullptr) return default_shader_;
+const ShaderProgram* Compiler::default_shader(const std::string& object_label) {
+    const EventLabels labels{{}, object_label};
+    ShaderProgram*& made = programs_[{nullptr, labels}];
+    if (made != nullptr) return made;
     const NodeType* lambert = graph_.registry().find("lambert");
     LIGHTSIEVE_ASSERT(lambert != nullptr, "the registry has no lambert");
     scene_->shaders.push_back(
         std::make_unique<ShaderProgram>(*lambert, lambert->default_block.data()));
-    default_shader_ = scene_->shaders.back().get();
-    return default_shader_;
+    made = scene_->shaders.back().get();
+    made->labels = labels;
+    return made;
 }
 
 void Compiler::make_background() {

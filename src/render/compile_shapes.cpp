@@ -190,15 +190,47 @@ std::vector<const ShaderProgram*> Compiler::shaders_of(const NodeInstance& node,
     NodeRef over;
     if (graph_.options() != nullptr) over = graph_.options()->get<NodeRef>("shader_override");
     if (over) refs = {&over, 1, 1};
+    const std::string label = object_label_of(node, source);
     std::vector<const ShaderProgram*> out;
     for (const NodeRef& ref : refs.first_key()) {
-        const ShaderProgram* program = ref ? program_for(*ref.node) : nullptr;
-        out.push_back(program != nullptr ? program : default_shader());
+        const ShaderProgram* program = ref ? program_for(*ref.node, {{}, label}) : nullptr;
+        out.push_back(program != nullptr ? program : default_shader(label));
     }
-    if (out.empty()) out.push_back(default_shader());
+    if (out.empty()) out.push_back(default_shader(label));
     for (const ShaderProgram* program : out)
-        surface_shaders_.insert(const_cast<ShaderProgram*>(program));
+        add_surface_shader(program);
     return out;
+}
+
+/// User data `lpe_label` of an instance or, if it has none, of what it shows. Labels of lobes that expressions for any scene
+/// rely on cannot be a shape's.
+std::string Compiler::object_label_of(const NodeInstance& node, const NodeInstance& source) {
+    const UserData* data = node.find_user_data("lpe_label");
+    if (data == nullptr) data = source.find_user_data("lpe_label");
+    if (data == nullptr) return {};
+    if (data->type != ParamType::String || data->n == 0) {
+        diagnostics_.warning(Code::InvalidValue, "lpe_label is not a STRING: it is left out",
+                             data->where, "declare lpe_label constant STRING");
+        return {};
+    }
+    std::string label = data->values<Name>()[0].str();
+    for (const char* taken : {"coat", "sheen", "hair", "default"})
+        if (label == taken) {
+            diagnostics_.warning(
+                Code::InvalidValue,
+                fmt::format("\"{}\" is the label of lobes or lights: it cannot be "
+                            "a shape's lpe_label",
+                            label),
+                data->where, "choose another label");
+            return {};
+        }
+    return label;
+}
+
+void Compiler::add_surface_shader(const ShaderProgram* program) {
+    if (!surface_shaders_.insert(const_cast<ShaderProgram*>(program)).second) return;
+    for (const ShaderProgram* part : program->parts)
+        add_surface_shader(part);
 }
 
 const LightSampler* Compiler::lights_of(const NodeInstance& node) {

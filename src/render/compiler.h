@@ -30,8 +30,9 @@ class Compiler {
     [[nodiscard]] const AssetFinder& assets() const { return assets_; }
     [[nodiscard]] const RenderSettings& settings() const { return scene_->settings; }
     [[nodiscard]] bool ignore_missing_textures() const { return ignore_missing_textures_; }
-    /// The program of a shader node; null if it cannot be made (an error was reported).
-    [[nodiscard]] const ShaderProgram* program_for(const NodeInstance& node, int depth = 0);
+    /// The program of a shader node whose events carry these labels; null if it cannot be made (an error was reported).
+    [[nodiscard]] const ShaderProgram* program_for(const NodeInstance& node,
+                                                   const EventLabels& labels = {}, int depth = 0);
     /// Geometry of a shape that is not an instance; null with an error reported.
     [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(const NodeInstance& node);
 
@@ -53,9 +54,10 @@ class Compiler {
 
     // compile_shaders.cpp
     void link_parameters(const NodeInstance& node, ShaderProgram& program, int depth);
+    void link_closures(const NodeInstance& node, ShaderProgram& program, int depth);
     [[nodiscard]] bool shader_may_be_transparent(const NodeInstance& node) const;
     [[nodiscard]] static bool shader_may_tint_shadows(const NodeInstance& node);
-    const ShaderProgram* default_shader();
+    const ShaderProgram* default_shader(const std::string& object_label);
     void make_background();
 
     // compile_shapes.cpp
@@ -64,6 +66,9 @@ class Compiler {
     [[nodiscard]] const ShapeGeometry* shared_geometry(const NodeInstance& node);
     [[nodiscard]] std::vector<const ShaderProgram*> shaders_of(const NodeInstance& node,
                                                                const NodeInstance& source);
+    [[nodiscard]] std::string object_label_of(const NodeInstance& node,
+                                              const NodeInstance& source);
+    void add_surface_shader(const ShaderProgram* program);
     [[nodiscard]] const LightSampler* lights_of(const NodeInstance& node);
     [[nodiscard]] std::vector<bool> shadow_lights_of(const NodeInstance& node);
     void resample_motion(ShapeGeometry& geometry, MotionRange range) const;
@@ -94,14 +99,16 @@ class Compiler {
     ScenePtr scene_;
     AssetFinder assets_;
     bool ignore_missing_textures_ = false, abort_on_error_ = true;
-    std::map<const NodeInstance*, ShaderProgram*> programs_;
+    std::map<std::pair<const NodeInstance*, EventLabels>, ShaderProgram*>
+        programs_;  ///< null: the default shader
+    std::map<const NodeInstance*, const ShaderProgram*>
+        prepared_;  ///< the first program of each node
     std::set<const NodeInstance*> failed_shaders_;
     std::map<const NodeInstance*, const ShapeGeometry*> geometry_by_node_;
     std::map<const NodeInstance*, std::uint32_t> light_index_;
     std::map<std::vector<std::uint32_t>, const LightSampler*> samplers_by_group_;
     std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
     std::map<Event, std::uint32_t> event_index_;
-    const ShaderProgram* default_shader_ = nullptr;
 };
 
 /// What a node may ask of the compiler.

@@ -17,8 +17,8 @@ constexpr float kShadowEpsilon = 1e-4F;
 constexpr float kCoplanar = 1e-4F;
 /// Area lights that one ray may pass.
 constexpr int kMaxLightsAlongRay = 256;
-/// Roulette never kills nor spares more surely than this.
-constexpr float kLeastSurvival = 0.05F, kMostSurvival = 0.95F;
+/// Light samples of little effect are traced at least this often.
+constexpr float kLeastSurvival = 0.05F;
 /// Segments of a path, transparent surfaces included: a guard against geometry that rays cannot leave.
 constexpr std::uint32_t kMaxSegments = 1024;
 
@@ -51,6 +51,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
     last_ = {};
     footprint_ = {camera_ray.width, camera_ray.spread};
     passed_ = kWhite;
+    interiors_.clear();
     n_scatter_ = n_transparent_ = 0;
     exit_pending_ = false;
     Ray ray{camera_ray.origin, camera_ray.direction, camera_ray.t_min, camera_ray.t_max, time};
@@ -93,6 +94,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         closures_.begin(surface.at.wo, surface.frame);
         surface.shader->closures(surface.at, closures_);
         counts.dropped_closures += closures_.n_dropped();
+        absorb(surface);
         if (from_camera) note_first_hit(surface, camera_from_world);
         if (!lights_only_) {
             add_emission();
@@ -341,6 +343,18 @@ Color Integrator<Tracker>::background_along(const Ray& ray) const {
     return scene_.background->value(at).rgb;
 }
 
+/// What the body that the path is inside of took away on the way to the surface. Seen from inside, a surface says itself
+/// what that was: a camera may stand in the body.
+template <class Tracker>
+void Integrator<Tracker>::absorb(const Surface& surface) {
+    const bool from_inside = !surface.at.entering && !is_black(closures_.interior());
+    const Color absorption = from_inside ? closures_.interior() : interiors_.absorption();
+    if (is_black(absorption)) return;
+    const Color left = transmittance(absorption, surface.t);
+    groups_.scale(left);
+    tracker_.scale(left);
+}
+
 /// Alpha, and what data layers show: the first surface that is not wholly transparent.
 template <class Tracker>
 void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& camera_from_world) {
@@ -369,25 +383,36 @@ void Integrator<Tracker>::gather_channels() {
     n_channels_ = 0;
     transmissive_ = false;
     all_delta_ = true;
+    const auto put = [&](std::size_t scatterer, const Channel& channel) {
+        std::size_t c = 0;
+        while (c < n_channels_ && !channels_[c].matches(channel))
+            ++c;
+        if (c == n_channels_) channels_[n_channels_++] = channel;
+        channel_of_[scatterer] = static_cast<std::uint8_t>(c);
+    };
     const std::span<const Closure> closures = closures_.closures();
     for (std::size_t i = 0; i < closures.size(); ++i) {
         all_delta_ = all_delta_ && closures_.delta(i);
         transmissive_ |= closures[i].record->kind == EventKind::Transmission;
-        std::size_t c = 0;
-        while (c < n_channels_ && !channels_[c].matches(closures[i]))
-            ++c;
-        if (c == n_channels_)
-            channels_[n_channels_++] = {closures[i].record, closures[i].caustics};
-        channel_of_[i] = static_cast<std::uint8_t>(c);
+        put(i, {closures[i].record, closures[i].caustics});
     }
+    for (std::size_t i = closures.size(); i < n_scatterers(); ++i)
+        put(i, {closures_.subsurfaces()[i - closures.size()].record, true});
+}
+
+template <class Tracker>
+Color Integrator<Tracker>::albedo_of(std::size_t scatterer) const {
+    const std::size_t n = closures_.closures().size();
+    return scatterer < n ? closures_.albedo(scatterer)
+                         : closures_.subsurfaces()[scatterer - n].albedo();
 }
 
 /// Albedo probes: what the path would carry under uniform white light. Never clamped, never part of the beauty.
 template <class Tracker>
 void Integrator<Tracker>::add_probes() {
     const std::span<Color> albedo = cleared_values();
-    for (std::size_t i = 0; i < closures_.closures().size(); ++i)
-        albedo[channel_of_[i]] += closures_.albedo(i);
+    for (std::size_t i = 0; i < n_scatterers(); ++i)
+        albedo[channel_of_[i]] += albedo_of(i);
     tracker_.add_scattered(
         std::span(channels_.data(), n_channels_), {scene_.probe, scene_.probe_event},
         [&](std::size_t g, std::size_t c) {
@@ -396,36 +421,6 @@ void Integrator<Tracker>::add_probes() {
                        : albedo[c];
         },
         1);
-}
-
-/// How likely each closure, or passing straight through, is drawn: by what it can carry on.
-template <class Tracker>
-void Integrator<Tracker>::choose_probabilities() {
-    // Throughput that may use each channel.
-    const std::span<Color> reach = cleared_values();
-    for (std::size_t c = 0; c < n_channels_; ++c)
-        for (const PathGroup& g : groups_.all())
-            if (!g.key.lights_only && channel_allowed(g.key, channels_[c]))
-                reach[c] += g.throughput;
-    float total = 0;
-    const std::size_t n = n_channels_ > 0 ? closures_.closures().size() : 0;
-    if (n == 1 && is_black(closures_.transparency())) {
-        // No choice: what the lobe returns need not be known.
-        probability_[0] = is_black(reach[0]) ? 0 : 1;
-        pass_probability_ = 0;
-        return;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-        probability_[i] = std::max(0.0F, luminance(reach[channel_of_[i]] * closures_.albedo(i)));
-        total += probability_[i];
-    }
-    const bool may_pass = n_transparent_ < scene_.settings.auto_transparency_depth;
-    const float through =
-        may_pass ? std::max(0.0F, luminance(groups_.total() * closures_.transparency())) : 0;
-    const float sum = total + through;
-    pass_probability_ = sum > 0 ? through / sum : 0;
-    for (std::size_t i = 0; i < n; ++i)
-        probability_[i] = sum > 0 ? probability_[i] / sum : 0;
 }
 
 template <class Tracker>
@@ -564,110 +559,35 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -
     return dark;
 }
 
+/// Light on the point where a walk came out. The event was made where it went in.
 template <class Tracker>
-bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
-    float u = points_.choice.x;
-
-    // Straight through: no event, no depth.
-    if (u < pass_probability_) {
-        const Color factor = closures_.transparency() * (1 / pass_probability_);
-        groups_.scale(factor);
-        tracker_.scale(factor);
-        passed_ *= factor;
-        ++n_transparent_;
-        const Vec3f origin = offset_ray_origin(surface.at.position, -surface.outward);
-        ray.t_max -= std::max(0.0F, dot(origin - ray.origin, ray.direction));
-        ray.origin = origin;
-        ray.t_min = 0;
-        return ray.t_max > 0;
-    }
-    u -= pass_probability_;
-
-    // Draw a closure.
-    const std::size_t n = n_channels_ > 0 ? closures_.closures().size() : 0;
-    std::size_t drawn = 0;
-    while (drawn < n && u >= probability_[drawn])
-        u -= probability_[drawn++];
-    // Rounding may leave a crumb behind the last one: it belongs to the last that can be drawn.
-    while (drawn >= n || !(probability_[drawn] > 0)) {
-        if (drawn == 0) return false;
-        --drawn;
-    }
-    const float u_choice = points_.roulette.y;
-    const LobeSample sample = closures_.sample(drawn, points_.direction, u_choice);
-    if (!(sample.pdf > 0)) return false;
-
-    // What each channel carries into that direction, over the density of the mixture.
-    const std::span<Color> factors = cleared_values();
-    const bool delta = closures_.delta(drawn);
-    float pdf = 0;
-    if (delta) {
-        if ((dot(sample.wi, surface.outward) > 0) != (dot(sample.wi, surface.at.normal) > 0))
-            return false;
-        factors[channel_of_[drawn]] = sample.f * (1 / probability_[drawn]);
-    } else {
-        pdf = evaluate(surface, sample.wi, factors);
-        if (!(pdf > 0)) return false;
-        for (std::size_t c = 0; c < n_channels_; ++c)
-            factors[c] *= 1 / pdf;
-    }
-    for (std::size_t c = 0; c < n_channels_; ++c)
-        if (!is_finite(factors[c])) {
-            drop(TraceCounts::kNoEvent);
-            return false;
-        }
-
-    if (active_fault() == Fault::DrawnLobeTakesAll) {
-        Color all;
-        for (Color& factor : factors)
-            all += std::exchange(factor, Color{});
-        factors[channel_of_[drawn]] = all;
-    }
-
-    // Every share splits over the channels.
-    const std::span<const Channel> channels(channels_.data(), n_channels_);
-    PathGroups::Step step;
-    const auto draw = [this](std::uint32_t stream) { return random(16 + stream); };
-    std::span<const Channel> counted = channels;
-#ifdef LIGHTSIEVE_FAULT_INJECTION
-    std::array<Channel, kMaxChannels> as_drawn;
-    as_drawn.fill(channels_[channel_of_[drawn]]);
-    if (active_fault() == Fault::DepthFromDrawnLobe)
-        counted = std::span<const Channel>(as_drawn.data(), n_channels_);
-#endif
-    groups_.scatter(counted, factors, scene_.depth_rules, draw, step);
-    tracker_.scatter(channels, factors, step, draw);
-    ++n_scatter_;
-    if (is_black(groups_.total())) return false;
-    if (!survives_roulette()) return false;
-    exit_pending_ = std::any_of(groups_.all().begin(), groups_.all().end(),
-                                [](const PathGroup& g) { return g.key.exits; });
-
-    const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
-    last_.position = surface.at.position;
-    last_.pick_normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
-    last_.lights = surface.object->lights;
-    last_.pdf = pdf;
-    last_.delta = delta;
-    last_.samples_only = surface.object->tampers_with_shadows();
-    last_.next_segment = segment_ + 1;
-    footprint_.width += footprint_.spread * surface.t;
-    ray = {offset_ray_origin(surface.at.position, side), sample.wi, 0, kInfinity, surface.at.time};
-    return true;
-}
-
-/// Ends faint paths early; what survives carries more. Goes by the shares of the beauty, never by what AOVs are asked for.
-template <class Tracker>
-bool Integrator<Tracker>::survives_roulette() {
-    if (scene_.settings.roulette_depth < 0 || n_scatter_ <= scene_.settings.roulette_depth)
-        return true;
-    const float start = max_component(path_start_);
-    const float q =
-        std::clamp(max_component(groups_.total()) / start, kLeastSurvival, kMostSurvival);
-    if (points_.roulette.x >= q) return false;
-    groups_.scale(Color::grey(1 / q));
-    tracker_.scale(Color::grey(1 / q));
-    return true;
+void Integrator<Tracker>::add_light_at_exit(const WalkExit& exit) {
+    const Surface& surface = exit.surface;
+    const LightSampler* lights = surface.object->lights;
+    if (lights->empty()) return;
+    const LightPick pick = lights->pick(surface.at.position, exit.outside, points_.choice.y);
+    if (!(pick.probability > 0)) return;
+    const SceneLight& light = scene_.lights[pick.light];
+    const LightSample sample = light.light->sample(surface.at.position, points_.light);
+    const float cosine = dot(exit.normal, sample.wi);
+    if (!(sample.pdf > 0) || is_black(sample.radiance) || !(cosine > 0) ||
+        !(dot(exit.outside, sample.wi) > 0))
+        return;
+    const bool samples_only = light.samples_only || surface.object->tampers_with_shadows();
+    const float pdf_light = pick.probability * sample.pdf;
+    const float weight =
+        sample.delta || samples_only ? 1 : power_heuristic(pdf_light, kInvPi * cosine);
+    const Visibility visible = visibility(surface, pick.light, sample);
+    if (is_black(visible.tinted)) return;
+    // As in add_light_samples: what came through glass has no twin among the rays.
+    const Color arriving = sample.radiance * (kInvPi * cosine / pdf_light) *
+                           (visible.straight * weight + (visible.tinted - visible.straight));
+    const bool background = light.is_skydome && light.common.aov_indirect;
+    const Terminal terminal = background ? Terminal{light.as_background, light.background_event}
+                                         : Terminal{light.as_light, light.light_event};
+    deposit(terminal, [&](std::size_t g) {
+        return arriving * light_factor(light.common, groups_[g].key.ray_type, n_scatter_);
+    });
 }
 
 template class Integrator<AovTracker>;

@@ -8,12 +8,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/sobol.h"
 #include "render/film.h"
+#include "render/interiors.h"
 #include "render/path_terms.h"
 #include "render/scene.h"
+#include "render/subsurface_walk.h"
 #include "render/surface.h"
 #include "render/trackers.h"
 
@@ -78,6 +81,7 @@ class Integrator {
     float add_infinite_lights(const Ray& ray);
     void add_exit_background(const Ray& ray);
     [[nodiscard]] Color background_along(const Ray& ray) const;
+    void absorb(const Surface& surface);
     void note_first_hit(const Surface& surface, const Mat4f& camera_from_world);
     void add_emission();
     void gather_channels();
@@ -87,8 +91,20 @@ class Integrator {
     /// Draws the next direction; false if the path ends.
     bool scatter(const Surface& surface, Ray& ray);
     bool survives_roulette();
+    /// The same through a subsurface closure: a walk, light at its end, a direction from there.
+    bool scatter_below(const Surface& surface, std::size_t drawn, Ray& ray);
 
     // Parts of them.
+    [[nodiscard]] std::size_t n_scatterers() const {
+        return closures_.closures().size() + closures_.subsurfaces().size();
+    }
+    /// Weighted albedo of a scatterer.
+    [[nodiscard]] Color albedo_of(std::size_t scatterer) const;
+    /// The scatterer that the number chooses, or nothing.
+    [[nodiscard]] std::optional<std::size_t> draw(float u) const;
+    /// Moves all shares on through the channels; false if the path ends. factors[c] = f_c / density
+    bool advance(std::span<const Color> factors, std::size_t drawn);
+    void add_light_at_exit(const WalkExit& exit);
     void drop(std::uint32_t event);
     template <class Value>
     void deposit(Terminal terminal, const Value& value);
@@ -139,11 +155,13 @@ class Integrator {
     std::array<Channel, kMaxChannels> channels_;
     std::size_t n_channels_ = 0;
     std::array<Color, kMaxChannels> values_;  ///< see cleared_values
-    std::array<std::uint8_t, ClosureSet::kMaxClosures> channel_of_;
-    std::array<float, ClosureSet::kMaxClosures> probability_;  ///< of drawing each closure
-    float pass_probability_ = 0;                               ///< of going straight through
-    bool transmissive_ = false;  ///< some lobe sends light to the other side
-    bool all_delta_ = false;     ///< no light sample can get through any lobe
+    /// By scatterer: the closures of the set, then its subsurface closures.
+    std::array<std::uint8_t, kMaxChannels> channel_of_;
+    std::array<float, kMaxChannels> probability_;  ///< of drawing each scatterer
+    Interiors interiors_;                          ///< that the path is inside of
+    float pass_probability_ = 0;                   ///< of going straight through
+    bool transmissive_ = false;                    ///< some lobe sends light to the other side
+    bool all_delta_ = false;                       ///< no light sample can get through any lobe
 };
 
 extern template class Integrator<AovTracker>;

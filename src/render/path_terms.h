@@ -64,16 +64,16 @@ struct Channel {
     const LobeRecord* record = nullptr;
     bool caustics = true;
 
-    [[nodiscard]] bool matches(const Closure& closure) const {
+    [[nodiscard]] bool matches(const Channel& other) const {
         const LobeRecord& a = *record;
-        const LobeRecord& b = *closure.record;
+        const LobeRecord& b = *other.record;
         return a.event == b.event && a.kind == b.kind && a.lobe == b.lobe &&
                a.subsurface == b.subsurface && a.exit_to_background == b.exit_to_background &&
-               caustics == closure.caustics;
+               caustics == other.caustics;
     }
 };
 
-inline constexpr std::size_t kMaxChannels = ClosureSet::kMaxClosures;
+inline constexpr std::size_t kMaxChannels = ClosureSet::kMaxClosures + ClosureSet::kMaxSubsurfaces;
 
 /// Turns depth counters into the next ones, and forgets differences that can no longer matter.
 class DepthRules {

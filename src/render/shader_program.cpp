@@ -121,12 +121,19 @@ ShaderValue ShaderProgram::value(const ShadePoint& at) const {
 }
 
 void ShaderProgram::closures(const ShadePoint& at, ClosureSet& out) const {
+    // A shader of shaders goes on with its own lobes afterwards.
+    const std::span<const LobeRecord> outer = out.records();
     out.set_records(records);
-    if (type_->eval_closure == nullptr) return out.emit(0, value(at).rgb);
-    if (patches_.empty()) return type_->eval_closure(block_.get(), at, out);
-    const Scratch copy(type_->block_size);
-    patch(copy.bytes(), at);
-    type_->eval_closure(copy.bytes(), at, out);
+    if (type_->eval_closure == nullptr) {
+        out.emit(0, value(at).rgb);
+    } else if (patches_.empty()) {
+        type_->eval_closure(block_.get(), at, out);
+    } else {
+        const Scratch copy(type_->block_size);
+        patch(copy.bytes(), at);
+        type_->eval_closure(copy.bytes(), at, out);
+    }
+    out.set_records(outer);
 }
 
 }  // namespace lightsieve

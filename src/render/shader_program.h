@@ -5,6 +5,7 @@
 // block. No string work; memory comes from the heap only until the arena has grown to the deepest network.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -15,6 +16,14 @@
 #include "scene/shade_point.h"
 
 namespace lightsieve {
+
+/// Labels that a scene gives to the events of a shader. Each use of a shader with other labels has a program of its own.
+struct EventLabels {
+    std::string
+        closure;  ///< from the `label` of a closure or of a node that wraps it; empty: the lobes' own
+    std::string object;  ///< `lpe_label` of the shape; empty: none
+    friend auto operator<=>(const EventLabels&, const EventLabels&) = default;
+};
 
 class ShaderProgram {
   public:
@@ -43,6 +52,10 @@ class ShaderProgram {
 
     /// Lobes with their events; filled when the scene's expressions are compiled.
     std::vector<LobeRecord> records;
+    /// Labels that its events carry in place of, or beside, those of its lobes.
+    EventLabels labels;
+    /// Shaders whose closures it takes over (mix_shader.shader1).
+    std::vector<const ShaderProgram*> parts;
     /// Whether rays may pass straight through what this shader covers.
     bool may_be_transparent = false;
     /// Whether shadow rays may pass where others are refracted (ClosureSet::transmit_shadow).

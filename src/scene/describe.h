@@ -156,6 +156,14 @@ class Describe {
     void lobe(int index, EventKind kind, EventLobe lobe, const char* label, std::string doc) {
         type_.lobes.push_back({index, kind, lobe, label, std::move(doc)});
     }
+    /// Declares lobe number `index`: subsurface scattering, event TD.
+    void lobe_below_surface(int index, std::string doc) {
+        lobe(index, EventKind::Transmission, EventLobe::Diffuse, "", std::move(doc));
+        type_.lobes.back().below_surface = true;
+    }
+
+    /// The shader's result depends on ShadePoint::ray_type.
+    void reads_ray_type() { type_.reads_ray_type = true; }
 
     [[nodiscard]] NodeType done() {
         type_.default_block.resize(sizeof(T));

@@ -59,6 +59,8 @@ struct LobeInfo {
     EventLobe lobe = EventLobe::Diffuse;
     std::string label;  ///< e.g. "coat"; empty if none
     std::string doc;    ///< one line
+    /// Its light walks below the surface, unless the shader's thin_walled is on.
+    bool below_surface = false;
 };
 
 /// Up to four floats: the result of a value shader, whatever its type. Float: r = g = b; vectors: r, g, b = x, y, z.
@@ -71,6 +73,8 @@ struct NodeType {
     std::vector<ParamInfo> params;
     std::vector<LobeInfo> lobes;
     OutputType output = OutputType::None;
+    /// The shader asks for the type of the ray: shares of a path that came by other types cannot go on as one ray.
+    bool reads_ray_type = false;
 
     std::size_t block_size = 0, block_align = 1;
     std::vector<std::byte> default_block;  ///< the bytes of a default constructed parameter struct

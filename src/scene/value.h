@@ -37,7 +37,9 @@ enum class ParamType : std::uint8_t {
 /// Bytes of one value in a block.
 [[nodiscard]] std::size_t type_size(ParamType type);
 
+class ClosureSet;    // bsdf/closure.h
 class NodeInstance;  // scene/graph.h
+struct ShadePoint;   // scene/shade_point.h
 
 /// A reference to another node; null if the parameter is empty or NULL.
 struct NodeRef {
@@ -49,8 +51,15 @@ struct NodeRef {
 /// A reference to a shader whose closures a closure shader takes over (mix_shader.shader1).
 struct ShaderRef {
     const NodeInstance* node = nullptr;
-    /// Filled in when the shader network is compiled.
+    /// Filled in when the shader network is compiled; null if nothing is linked.
     const void* program = nullptr;
+    void (*run)(const void* program, const ShadePoint& at, ClosureSet& out) = nullptr;
+
+    explicit operator bool() const { return program != nullptr; }
+    /// Adds the shader's closures, with the set's scale; nothing if none is linked.
+    void closures(const ShadePoint& at, ClosureSet& out) const {
+        if (program != nullptr) run(program, at, out);
+    }
     friend bool operator==(ShaderRef, ShaderRef) = default;
 };
 

@@ -62,7 +62,8 @@ class RectangleSource final : public Light {
     [[nodiscard]] LightEval hit(Vec3f from, const LightHit& at) const override {
         const RectangleView view(rectangle_, from);
         if (!view.visible()) return {};
-        return {radiance_.at(at.position, rectangle_.normal(), at.uv), view.pdf({at.position, at.uv})};
+        return {radiance_.at(at.position, rectangle_.normal(), at.uv),
+                view.pdf({at.position, at.uv})};
     }
     [[nodiscard]] const ShapeGeometry* geometry() const override { return &geometry_; }
     [[nodiscard]] LightBounds bounds() const override { return bounds_; }

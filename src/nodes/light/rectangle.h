@@ -86,8 +86,7 @@ class RectangleView {
     /// Densities over the area, 1 / r^3 for a plane at a fixed height, at the corners; true if that is good enough.
     bool look_from_afar(float x0, float y0, float z0) {
         const float w = rectangle_.width(), h = rectangle_.height();
-        const float distance_squared =
-            square(x0 + 0.5F * w) + square(y0 + 0.5F * h) + square(z0);
+        const float distance_squared = square(x0 + 0.5F * w) + square(y0 + 0.5F * h) + square(z0);
         if (!(0.25F * (w * w + h * h) < kFar * kFar * distance_squared)) return false;
         for (std::size_t i = 0; i < 4; ++i) {
             const float x = i % 2 == 0 ? x0 : x0 + w, y = i < 2 ? y0 : y0 + h;

@@ -136,7 +136,10 @@ class Layering {
     /// transmission * transmission_color * spec_btdf + (1 - transmission) * ...
     void add_transmission() {
         if (transmission_ > 0 && !is_black(left_)) {
-            const Color weight = left_ * (transmission_ * positive(s_.transmission_color));
+            const bool tints_inside = s_.transmission_depth > 0 && !s_.thin_walled;
+            const Color tint = tints_inside ? kWhite : positive(s_.transmission_color);
+            if (tints_inside) out_.set_interior(absorption());
+            const Color weight = left_ * (transmission_ * tint);
             const GgxAlpha alpha = specular_alpha(roughness(s_.transmission_extra_roughness));
             const LobeModel model = s_.thin_walled
                                         ? LobeModel(ThinTransmit())
@@ -167,11 +170,18 @@ class Layering {
             out_.add(kDiffuse, DiffuseReflect(reflectance, s_.diffuse_roughness),
                      left_ * (1 - subsurface), base_.index, true);
         if (!(subsurface > 0)) return;
-        const Color color = darkened(s_.subsurface_color);
-        const LobeModel model = s_.thin_walled
-                                    ? LobeModel(DiffuseTransmit(color, s_.diffuse_roughness))
-                                    : LobeModel(DiffuseReflect(color, s_.diffuse_roughness));
-        out_.add(kSubsurface, model, left_ * subsurface, base_.index, true);
+        const Color color = darkened(s_.subsurface_color), weight = left_ * subsurface;
+        const Color radius = positive(s_.subsurface_radius) * positive(s_.subsurface_scale);
+        if (s_.thin_walled) {
+            out_.add(kSubsurface, DiffuseTransmit(color, s_.diffuse_roughness), weight,
+                     base_.index, true);
+        } else if (SubsurfaceMedium::has_depth(radius)) {
+            out_.add_subsurface(kSubsurface,
+                                SubsurfaceMedium(color, radius, s_.subsurface_anisotropy), weight);
+        } else {
+            out_.add(kSubsurface, DiffuseReflect(color, s_.diffuse_roughness), weight, base_.index,
+                     true);
+        }
     }
 
   private:
@@ -184,8 +194,7 @@ class Layering {
     /// Frame around the parameter's normal (0 0 0: the hit's), its x axis turned for anisotropy.
     [[nodiscard]] Oriented oriented(Vec3f linked_normal, float anisotropy, float rotation) {
         const bool own_normal = !(linked_normal == Vec3f{});
-        if (!own_normal && !(anisotropy > 0))
-            return {0, out_.local_wo(0)};
+        if (!own_normal && !(anisotropy > 0)) return {0, out_.local_wo(0)};
         const Vec3f n = shading_normal(at_, linked_normal);
         Frame frame = Frame::from_z_x(n, s_.tangent == Vec3f{} ? at_.tangent : s_.tangent);
         // A full turn for rotation = 1, from x toward -y: standard_surface's OSL reference.
@@ -209,6 +218,18 @@ class Layering {
     }
     [[nodiscard]] GgxAlpha specular_alpha(float r) const {
         return GgxAlpha::from_roughness(r, s_.specular_anisotropy);
+    }
+    /// Absorption coefficient of the interior: transmission_color is left after transmission_depth, less what scatters
+    /// (Autodesk Standard Surface 1.0.1, section 4.3).
+    [[nodiscard]] Color absorption() const {
+        constexpr float kDarkest = 1e-6F;
+        Color out;
+        for (int c = 0; c < 3; ++c) {
+            const float color = std::clamp(s_.transmission_color[c], kDarkest, 1.0F);
+            out[c] = std::max(0.0F, -std::log(color) / s_.transmission_depth -
+                                        positive(s_.transmission_scatter[c]));
+        }
+        return out;
     }
     /// n(far side) / n(side of wo).
     [[nodiscard]] float relative_ior() const {
@@ -264,14 +285,6 @@ void StandardSurface::prepare(NodeContext& context) {
     if (!context.is_linked("normal")) normal = {};
     if (!context.is_linked("coat_normal")) coat_normal = {};
     if (!context.is_linked("tangent")) tangent = {};
-    if ((subsurface > 0 || context.is_linked("subsurface")) && !thin_walled)
-        context.diagnostics().warning(
-            Code::ParamPending,
-            "subsurface scattering is not supported yet: its part of the surface is shown as "
-            "diffuse "
-            "reflection of subsurface_color",
-            context.where("subsurface"),
-            "its light stays in the AOVs of subsurface scattering (event TD)");
 }
 
 // Parameters --------------------------------------------------------------------------------------------------------
@@ -305,12 +318,11 @@ void describe_base(Describe<S>& d) {
 void describe_transmission(Describe<S>& d) {
     d.param("transmission", &S::transmission, "Mix from the diffuse base (0) to a clear body (1).")
         .range(0, 1);
-    d.param("transmission_color", &S::transmission_color, "Tint at each crossing of the surface.")
+    d.param("transmission_color", &S::transmission_color, "Tint of what is seen through the body.")
         .range(0, 1);
     d.param("transmission_depth", &S::transmission_depth,
-            "Depth at which the interior has transmission_color.")
-        .unit("scene units")
-        .pending();
+            "Depth at which the interior has transmission_color; 0: tinted at the surface.")
+        .unit("scene units");
     d.param("transmission_scatter", &S::transmission_scatter,
             "Scattering coefficient of the interior.")
         .unit("1/scene units")
@@ -341,14 +353,14 @@ void describe_subsurface_and_sheen(Describe<S>& d) {
         .range(0, 1);
     d.param("subsurface_color", &S::subsurface_color, "Reflectance of subsurface scattering.")
         .range(0, 1);
-    d.param("subsurface_radius", &S::subsurface_radius,
-            "Mean free path a channel; acts with random walks, which are not supported yet.")
-        .ignored();
-    d.param("subsurface_scale", &S::subsurface_scale, "Factor on subsurface_radius.").ignored();
+    d.param("subsurface_radius", &S::subsurface_radius, "Mean free path, a channel each.")
+        .unit("scene units");
+    d.param("subsurface_scale", &S::subsurface_scale, "Factor on subsurface_radius.");
     d.param("subsurface_anisotropy", &S::subsurface_anisotropy,
-            "Mean cosine of the scattering; acts with random walks.")
-        .ignored();
-    d.param("subsurface_type", &S::subsurface_type, "Method; acts with random walks.")
+            "Mean cosine of the scattering: above 0 light goes on forward.")
+        .range(-1, 1);
+    d.param("subsurface_type", &S::subsurface_type,
+            "Arnold's choice of methods; here light always walks.")
         .names({"diffusion", "randomwalk", "randomwalk_v2"})
         .ignored();
     d.param("sheen", &S::sheen, "Weight of the glow of cloth.").range(0, 1);
@@ -437,8 +449,8 @@ NodeType StandardSurface::describe() {
     d.lobe(kCoat, EventKind::Reflection, EventLobe::Specular, "coat", "Reflection of the coat.");
     d.lobe(kTransmission, EventKind::Transmission, EventLobe::Specular, "",
            "Refraction, or straight transmission of thin walls.");
-    d.lobe(kSubsurface, EventKind::Transmission, EventLobe::Diffuse, "",
-           "Subsurface scattering, or diffuse transmission of thin walls.");
+    d.lobe_below_surface(kSubsurface,
+                         "Subsurface scattering; diffuse transmission where thin_walled.");
     d.lobe(kEmission, EventKind::Object, EventLobe::None, "", "Emission.");
     return d.done();
 }

@@ -1,0 +1,45 @@
+// dielectric_bsdf: the surface of glass, water or varnish.
+#include "nodes/closure/closure_common.h"
+
+namespace lightsieve {
+namespace {
+
+struct Dielectric : MicrofacetCommon {
+    Color tint{1, 1, 1};
+    float ior = 1.5F;
+    ScatterMode scatter_mode = ScatterMode::Reflect;
+
+    static NodeType describe() {
+        Describe<Dielectric> d("dielectric_bsdf", NodeKind::Shader,
+                               "Reflection and refraction by the surface of a clear body.");
+        d.lobe(0, EventKind::Reflection, EventLobe::Specular, "", "Reflection.");
+        d.lobe(1, EventKind::Transmission, EventLobe::Specular, "", "Refraction.");
+        d.param("tint", &Dielectric::tint, "Factor on what is reflected and refracted.")
+            .range(0, 1);
+        d.param("ior", &Dielectric::ior, "Index of refraction of the side away from the normal.")
+            .range(1, 3);
+        d.param("scatter_mode", &Dielectric::scatter_mode, "R: reflects, T: refracts, RT: both.")
+            .names({"R", "T", "RT"});
+        describe_microfacets(d);
+        return d.done();
+    }
+
+    void eval(const ShadePoint& at, ClosureSet& out) const {
+        const Color factor = unit(weight) * positive(tint);
+        const std::uint8_t own = frame(at, out, tangent);
+        // A body that only reflects is seen from outside on both sides; one that refracts has an inside.
+        const bool inside = transmits(scatter_mode) && !at.entering;
+        const float eta = inside ? 1 / ior : ior;
+        const DielectricReflect reflection(alpha(), eta);
+        if (reflects(scatter_mode)) out.add(0, reflection, factor, own, caustics);
+        if (!transmits(scatter_mode)) return;
+        const Color left = kWhite - reflection.albedo(out.local_wo(own));
+        out.add(1, DielectricTransmit(alpha(), eta), factor * left, own, caustics);
+    }
+};
+
+}  // namespace
+
+NodeType node_dielectric_bsdf() { return Dielectric::describe(); }
+
+}  // namespace lightsieve

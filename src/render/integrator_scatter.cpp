@@ -1,0 +1,215 @@
+// How a path goes on from a surface: which scatterer is drawn, and what each share of the path becomes.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/sampling.h"
+#include "render/faults.h"
+#include "render/integrator.h"
+#include "render/path_log.h"
+
+namespace lightsieve {
+namespace {
+
+/// Streams of random numbers of walks below a surface, apart from those of the path.
+constexpr std::uint32_t kWalkStream = 0x5bd1e995U;
+/// Roulette never kills nor spares more surely than this.
+constexpr float kLeastSurvival = 0.05F, kMostSurvival = 0.95F;
+
+}  // namespace
+
+/// How likely each closure, or passing straight through, is drawn: by what it can carry on.
+template <class Tracker>
+void Integrator<Tracker>::choose_probabilities() {
+    // Throughput that may use each channel.
+    const std::span<Color> reach = cleared_values();
+    for (std::size_t c = 0; c < n_channels_; ++c)
+        for (const PathGroup& g : groups_.all())
+            if (!g.key.lights_only && channel_allowed(g.key, channels_[c]))
+                reach[c] += g.throughput;
+    float total = 0;
+    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
+    if (n == 1 && is_black(closures_.transparency())) {
+        // No choice: what the lobe returns need not be known.
+        probability_[0] = is_black(reach[0]) ? 0 : 1;
+        pass_probability_ = 0;
+        return;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        probability_[i] = std::max(0.0F, luminance(reach[channel_of_[i]] * albedo_of(i)));
+        total += probability_[i];
+    }
+    const bool may_pass = n_transparent_ < scene_.settings.auto_transparency_depth;
+    const float through =
+        may_pass ? std::max(0.0F, luminance(groups_.total() * closures_.transparency())) : 0;
+    const float sum = total + through;
+    pass_probability_ = sum > 0 ? through / sum : 0;
+    for (std::size_t i = 0; i < n; ++i)
+        probability_[i] = sum > 0 ? probability_[i] / sum : 0;
+}
+
+template <class Tracker>
+bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
+    float u = points_.choice.x;
+
+    // Straight through: no event, no depth.
+    if (u < pass_probability_) {
+        const Color factor = closures_.transparency() * (1 / pass_probability_);
+        groups_.scale(factor);
+        tracker_.scale(factor);
+        passed_ *= factor;
+        ++n_transparent_;
+        const Vec3f origin = offset_ray_origin(surface.at.position, -surface.outward);
+        ray.t_max -= std::max(0.0F, dot(origin - ray.origin, ray.direction));
+        ray.origin = origin;
+        ray.t_min = 0;
+        return ray.t_max > 0;
+    }
+    u -= pass_probability_;
+
+    const std::optional<std::size_t> drawn_one = draw(u);
+    if (!drawn_one) return false;
+    const std::size_t drawn = *drawn_one;
+    if (drawn >= closures_.closures().size()) return scatter_below(surface, drawn, ray);
+    const float u_choice = points_.roulette.y;
+    const LobeSample sample = closures_.sample(drawn, points_.direction, u_choice);
+    if (!(sample.pdf > 0)) return false;
+
+    // What each channel carries into that direction, over the density of the mixture.
+    const std::span<Color> factors = cleared_values();
+    const bool delta = closures_.delta(drawn);
+    float pdf = 0;
+    if (delta) {
+        if ((dot(sample.wi, surface.outward) > 0) != (dot(sample.wi, surface.at.normal) > 0))
+            return false;
+        factors[channel_of_[drawn]] = sample.f * (1 / probability_[drawn]);
+    } else {
+        pdf = evaluate(surface, sample.wi, factors);
+        if (!(pdf > 0)) return false;
+        for (std::size_t c = 0; c < n_channels_; ++c)
+            factors[c] *= 1 / pdf;
+    }
+    for (std::size_t c = 0; c < n_channels_; ++c)
+        if (!is_finite(factors[c])) {
+            drop(TraceCounts::kNoEvent);
+            return false;
+        }
+
+    if (active_fault() == Fault::DrawnLobeTakesAll) {
+        Color all;
+        for (Color& factor : factors)
+            all += std::exchange(factor, Color{});
+        factors[channel_of_[drawn]] = all;
+    }
+    if (!advance(factors, drawn)) return false;
+    if (!is_black(closures_.interior()) && dot(sample.wi, surface.outward) < 0) {
+        if (surface.at.entering)
+            interiors_.enter(surface.object, closures_.interior());
+        else
+            interiors_.leave(surface.object);
+    }
+    const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
+    last_.position = surface.at.position;
+    last_.pick_normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
+    last_.lights = surface.object->lights;
+    last_.pdf = pdf;
+    last_.delta = delta;
+    last_.samples_only = surface.object->tampers_with_shadows();
+    last_.next_segment = segment_ + 1;
+    footprint_.width += footprint_.spread * surface.t;
+    ray = {offset_ray_origin(surface.at.position, side), sample.wi, 0, kInfinity, surface.at.time};
+    return true;
+}
+
+template <class Tracker>
+std::optional<std::size_t> Integrator<Tracker>::draw(float u) const {
+    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
+    std::size_t drawn = 0;
+    while (drawn < n && u >= probability_[drawn])
+        u -= probability_[drawn++];
+    // Rounding may leave a crumb behind the last one: it belongs to the last that can be drawn.
+    while (drawn >= n || !(probability_[drawn] > 0)) {
+        if (drawn == 0) return std::nullopt;
+        --drawn;
+    }
+    return drawn;
+}
+
+template <class Tracker>
+bool Integrator<Tracker>::advance(std::span<const Color> factors,
+                                  [[maybe_unused]] std::size_t drawn) {
+    // Every share splits over the channels.
+    const std::span<const Channel> channels(channels_.data(), n_channels_);
+    PathGroups::Step step;
+    const auto coin = [this](std::uint32_t stream) { return random(16 + stream); };
+    std::span<const Channel> counted = channels;
+#ifdef LIGHTSIEVE_FAULT_INJECTION
+    std::array<Channel, kMaxChannels> as_drawn;
+    as_drawn.fill(channels_[channel_of_[drawn]]);
+    if (active_fault() == Fault::DepthFromDrawnLobe)
+        counted = std::span<const Channel>(as_drawn.data(), n_channels_);
+#endif
+    groups_.scatter(counted, factors, scene_.depth_rules, coin, step);
+    tracker_.scatter(channels, factors, step, coin);
+    ++n_scatter_;
+    if (is_black(groups_.total())) return false;
+    if (!survives_roulette()) return false;
+    exit_pending_ = std::any_of(groups_.all().begin(), groups_.all().end(),
+                                [](const PathGroup& g) { return g.key.exits; });
+    return true;
+}
+
+template <class Tracker>
+bool Integrator<Tracker>::scatter_below(const Surface& surface, std::size_t drawn, Ray& ray) {
+    const SubsurfaceClosure& closure =
+        closures_.subsurfaces()[drawn - closures_.closures().size()];
+    const std::span<Color> factors = cleared_values();
+    factors[channel_of_[drawn]] = closure.weight * (1 / probability_[drawn]);
+    if (!advance(factors, drawn)) return false;
+    const std::optional<WalkExit> exit =
+        walk_below(scene_, surface, closure.medium, points_.direction, *sampler_,
+                   hash_combine(segment_, kWalkStream), counts.rays);
+    if (!exit) return false;
+    groups_.scale(exit->throughput);
+    tracker_.scale(exit->throughput);
+    add_light_at_exit(*exit);
+
+    // It leaves as from a Lambertian surface: cosine over density is 1.
+    const Vec3f wi = Frame::from_z(exit->normal)
+                         .world_from_local(sample_cosine_hemisphere({random(8), random(9)}));
+    if (!(dot(wi, exit->outside) > 0)) return false;
+    const Surface& at = exit->surface;
+    last_.position = at.at.position;
+    last_.pick_normal = exit->outside;
+    last_.lights = at.object->lights;
+    last_.pdf = kInvPi * dot(exit->normal, wi);
+    last_.delta = false;
+    last_.samples_only = at.object->tampers_with_shadows();
+    last_.next_segment = segment_ + 1;
+    footprint_.width += footprint_.spread * surface.t;
+    ray = {offset_ray_origin(at.at.position, exit->outside), wi, 0, kInfinity, at.at.time};
+    return true;
+}
+
+/// Ends faint paths early; what survives carries more. Goes by the shares of the beauty, never by what AOVs are asked for.
+template <class Tracker>
+bool Integrator<Tracker>::survives_roulette() {
+    if (scene_.settings.roulette_depth < 0 || n_scatter_ <= scene_.settings.roulette_depth)
+        return true;
+    const float start = max_component(path_start_);
+    const float q =
+        std::clamp(max_component(groups_.total()) / start, kLeastSurvival, kMostSurvival);
+    if (points_.roulette.x >= q) return false;
+    groups_.scale(Color::grey(1 / q));
+    tracker_.scale(Color::grey(1 / q));
+    return true;
+}
+
+#define LIGHTSIEVE_SCATTER(Tracker)                            \
+    template void Integrator<Tracker>::choose_probabilities(); \
+    template bool Integrator<Tracker>::scatter(const Surface&, Ray&);
+LIGHTSIEVE_SCATTER(AovTracker)
+LIGHTSIEVE_SCATTER(LogTracker)
+#undef LIGHTSIEVE_SCATTER
+
+}  // namespace lightsieve
