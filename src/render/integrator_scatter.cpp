@@ -104,9 +104,9 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     if (!advance(factors, drawn)) return false;
     if (!is_black(closures_.interior()) && dot(sample.wi, surface.outward) < 0) {
         if (surface.at.entering)
-            interiors_.enter(surface.object, closures_.interior());
+            interiors_.enter(surface.shader, closures_.interior());
         else
-            interiors_.leave(surface.object);
+            interiors_.leave(surface.shader);
     }
     const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
     last_.position = surface.at.position;

@@ -1,6 +1,6 @@
 // The absorbing bodies that a path is inside of, innermost last.
 //
-// A path enters a body when it is refracted at the outside of its surface and leaves it at the inside. What it is inside of decides
+// A body is known by its shader, since one body may be made of several shapes. A path enters it when it is refracted at the outside of its surface and leaves it at the inside. What it is inside of decides
 // how much light the way to the next surface takes away (Beer-Lambert).
 #pragma once
 
@@ -15,11 +15,12 @@ namespace lightsieve {
 class Interiors {
   public:
     void clear() { n_ = 0; }
-    /// The path went through the surface of `body` to its inside. More than fit are not kept: they absorb nothing.
+    /// body  the shader of the surface that the path went through to the inside
+    /// More than fit are not kept: they absorb nothing.
     void enter(const void* body, Color absorption) {
         if (n_ < bodies_.size()) bodies_[n_++] = {body, absorption};
     }
-    /// The path went through the surface of `body` to its outside. Bodies may overlap, so it need not be the last.
+    /// The path went through such a surface to the outside. Bodies may overlap, so it need not be the last.
     void leave(const void* body) {
         for (std::size_t i = n_; i-- > 0;) {
             if (bodies_[i].body != body) continue;
