@@ -181,15 +181,24 @@ class Search {
 /// Any path that the first expression takes.
 bool any(const std::vector<bool>&, const Event&) { return true; }
 
-std::optional<Path> search(std::initializer_list<Expr> exprs, const Wanted& wanted,
-                           const Limits& limits) {
+/// Paths that a takes and b takes too, or does not.
+bool in_both(const std::vector<bool>& taken, const Event&) { return taken[1]; }
+bool in_first_only(const std::vector<bool>& taken, const Event&) { return !taken[1]; }
+
+std::optional<Path> search(std::initializer_list<Expr> exprs, std::span<const Event> events,
+                           const Wanted& wanted, const Limits& limits) {
     if (!*exprs.begin()) return std::nullopt;
-    const std::span<const Expr> all(exprs.begin(), exprs.size());
     try {
-        return Search(all, abstract_events(all, limits), limits).run(wanted);
+        return Search({exprs.begin(), exprs.size()}, events, limits).run(wanted);
     } catch (const OverBudget& over) {
         throw InputError(over.error("the proof", (*exprs.begin())->where));
     }
+}
+
+std::optional<Path> search(std::initializer_list<Expr> exprs, const Wanted& wanted,
+                           const Limits& limits) {
+    const std::span<const Expr> all(exprs.begin(), exprs.size());
+    return search(exprs, abstract_events(all, limits), wanted, limits);
 }
 
 }  // namespace
@@ -229,22 +238,15 @@ std::optional<Path> shortest_path(const Expr& expr, const Limits& limits) {
 
 std::optional<Path> shortest_path(const Expr& expr, std::span<const Event> events,
                                   const Limits& limits) {
-    if (!expr) return std::nullopt;
-    try {
-        return Search({&expr, 1}, events, limits).run(any);
-    } catch (const OverBudget& over) {
-        throw InputError(over.error("the proof", expr->where));
-    }
+    return search({expr}, events, any, limits);
 }
 
 std::optional<Path> shortest_common_path(const Expr& a, const Expr& b, const Limits& limits) {
-    const auto both = [](const std::vector<bool>& taken, const Event&) { return bool{taken[1]}; };
-    return search({a, b}, both, limits);
+    return search({a, b}, in_both, limits);
 }
 
 std::optional<Path> shortest_path_outside(const Expr& a, const Expr& b, const Limits& limits) {
-    const auto not_b = [](const std::vector<bool>& taken, const Event&) { return !taken[1]; };
-    return search({a, b}, not_b, limits);
+    return search({a, b}, in_first_only, limits);
 }
 
 bool equivalent(const Expr& a, const Expr& b, const Limits& limits) {
@@ -265,8 +267,29 @@ bool takes_probe(const Expr& expr, const Limits& limits) {
     return search({expr}, is_probe, limits).has_value();
 }
 
+Comparison compare(const Expr& a, const Expr& b, std::span<const Event> events,
+                   const Limits& limits) {
+    Comparison out;
+    out.only_a = search({a, b}, events, in_first_only, limits);
+    out.only_b = search({b, a}, events, in_first_only, limits);
+    out.both = search({a, b}, events, in_both, limits);
+    if (!out.only_a && !out.only_b)
+        out.relation = Relation::Equal;
+    else if (!out.only_a)
+        out.relation = Relation::Subset;
+    else if (!out.only_b)
+        out.relation = Relation::Superset;
+    else
+        out.relation = out.both ? Relation::Overlapping : Relation::Disjoint;
+    return out;
+}
+
+Comparison compare(const Expr& a, const Expr& b, const Limits& limits) {
+    return compare(a, b, abstract_events(std::array{a, b}, limits), limits);
+}
+
 PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
-                                const Limits& limits) {
+                                std::span<const Event> events, const Limits& limits) {
     PartitionReport report;
     const auto keep_shortest = [&](PartitionReport::Fault fault, std::optional<Path> witness,
                                    std::size_t first = 0, std::size_t second = 0) {
@@ -278,13 +301,22 @@ PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
     for (const Expr& part : parts)
         if (part) all.parts.push_back(part);
     const Expr sum = std::make_shared<const Node>(Node{std::move(all), {}});
-    keep_shortest(PartitionReport::Fault::Lost, shortest_path_outside(whole, sum, limits));
+    keep_shortest(PartitionReport::Fault::Lost,
+                  search({whole, sum}, events, in_first_only, limits));
     for (std::size_t i = 0; i < parts.size(); ++i)
         for (std::size_t j = i + 1; j < parts.size(); ++j)
             keep_shortest(PartitionReport::Fault::Twice,
-                          shortest_common_path(parts[i], parts[j], limits), i, j);
-    keep_shortest(PartitionReport::Fault::Outside, shortest_path_outside(sum, whole, limits));
+                          search({parts[i], parts[j]}, events, in_both, limits), i, j);
+    keep_shortest(PartitionReport::Fault::Outside,
+                  search({sum, whole}, events, in_first_only, limits));
     return report;
+}
+
+PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
+                                const Limits& limits) {
+    std::vector<Expr> all(parts.begin(), parts.end());
+    all.push_back(whole);
+    return check_partition(whole, parts, abstract_events(all, limits), limits);
 }
 
 }  // namespace lightsieve::lpe

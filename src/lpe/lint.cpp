@@ -43,7 +43,7 @@ bool takes_kind(const Node& test, EventKind kind) {
 /// `L'key'`: a label right after a test of light, which people mean as the light's group.
 bool has_group_after_light(const Node& root) {
     bool found = false;
-    for_each_node(root, [&](const Node& node) {
+    for_each_written_node(root, [&](const Node& node) {
         const auto* sequence = std::get_if<Sequence>(&node.form);
         if (sequence == nullptr) return;
         for (std::size_t i = 0; i + 1 < sequence->parts.size(); ++i) {
@@ -213,7 +213,7 @@ void lint_in_scene(const Expr& expr, std::string_view aov_name, std::span<const 
                    Diagnostics& diagnostics) {
     if (!expr) return;
     SceneLint lint(aov_name, events, diagnostics);
-    for_each_node(*expr, [&](const Node& node) { lint.check(node); });
+    for_each_written_node(*expr, [&](const Node& node) { lint.check(node); });
     if (lint.found()) return;
     // Say it only where the scene, not the expression itself, is the reason.
     within_budget([&] {
