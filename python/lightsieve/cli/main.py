@@ -14,7 +14,7 @@ import typer
 import lightsieve
 from lightsieve import cli
 from lightsieve.cli import _output
-from lightsieve.errors import LightsieveError
+from lightsieve.errors import LightsieveError, without_place
 
 # What a group of commands is for; a file `exr_info.py` belongs to the group `exr`.
 GROUPS = {
@@ -24,6 +24,12 @@ GROUPS = {
 
 EXIT_INPUT = 1
 EXIT_BUG = 3
+# Made beforehand: there may be no memory for it later.
+_OUT_OF_MEMORY = without_place(
+    "limit-memory",
+    "not enough memory",
+    "smaller pictures or scenes, or a machine with more memory",
+)
 
 
 def _print_version(wanted: bool) -> None:
@@ -100,6 +106,9 @@ def main() -> NoReturn:
         build_app(pretty=sys.stderr.isatty() and sys.stdout.isatty())()
     except LightsieveError as error:
         _output.report_failure(error)
+        code = EXIT_INPUT
+    except MemoryError:
+        _output.report_failure(LightsieveError([_OUT_OF_MEMORY]))
         code = EXIT_INPUT
     except BrokenPipeError:
         # The reader has gone (`lightsieve lpe list | head`): say nothing more, not even at exit.
