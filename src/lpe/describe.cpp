@@ -181,13 +181,22 @@ class Describer {
         for (std::size_t i = sequence.parts.size(); i-- > 0;)
             after[i] = backward(*sequence.parts[i], after[i + 1]);
         Texts out;
+        std::string last;
+        std::uint32_t n_alike = 0;
         Places here = from & after[0];
         for (std::size_t i = 0; i < sequence.parts.size(); ++i) {
             const Node& part = *sequence.parts[i];
             // What has ended goes on with nothing: no words for that.
             if (here != kEnded)
-                for (std::string& clause : clauses(part, here, after[i + 1]))
-                    out.push_back(std::move(clause));
+                for (const std::string& clause : clauses(part, here, after[i + 1])) {
+                    // The same event once more is not said once more.
+                    n_alike = is_event_test(part) && clause == last ? n_alike + 1 : 1;
+                    last = clause;
+                    if (n_alike == 1)
+                        out.push_back(clause);
+                    else
+                        out.back() = clause + " " + count_words(n_alike);
+                }
             here = forward(part, here) & after[i + 1];
         }
         return out;
@@ -221,9 +230,8 @@ class Describer {
         if (!is_single(*repeat.body)) {
             const std::string body =
                 join_words(clauses(*repeat.body, loop_from, loop_to), "and then");
-            return with_condition("repeat " + times_words(repeat.min, repeat.max) + ": (" + body +
-                                      ")",
-                                  from);
+            return with_condition(
+                "repeat " + times_words(repeat.min, repeat.max) + ": (" + body + ")", from);
         }
         const Taken body = taken(*repeat.body);
         const auto [scattering, terminal] = allowed(body, loop_to);
@@ -236,11 +244,9 @@ class Describer {
             return with_condition("go on in any way", from);
         // The last of the events is where the path ends; the others scatter it.
         const std::uint32_t min = repeat.min == 0 ? 0 : repeat.min - 1;
-        const std::uint32_t max =
-            repeat.max == Repeat::kUnbounded ? repeat.max : repeat.max - 1;
+        const std::uint32_t max = repeat.max == Repeat::kUnbounded ? repeat.max : repeat.max - 1;
         Texts out;
-        if (max > 0)
-            out = with_condition("are " + scattered + " " + times_words(min, max), from);
+        if (max > 0) out = with_condition("are " + scattered + " " + times_words(min, max), from);
         for (std::string& clause : with_condition("end " + ended, from))
             out.push_back(std::move(clause));
         return out;

@@ -269,8 +269,7 @@ class NearestSearch {
     void search(std::size_t i, double share) {
         if (++n_steps_ > kMaxSearchSteps) return;
         const bool better = share > best_share_ + kShareNoise;
-        const bool shorter =
-            share > best_share_ - kShareNoise && chosen_.size() < best_.size();
+        const bool shorter = share > best_share_ - kShareNoise && chosen_.size() < best_.size();
         if (better || shorter) {
             best_ = chosen_;
             best_share_ = share;

@@ -417,10 +417,8 @@ std::string EventNames::scatter_text(const Group& group) const {
 
 std::string EventNames::end_text(const Group& group) const {
     static constexpr std::array kPlaces{
-        Phrase{kLight, "at any source of light"},
-        Phrase{bits({kL}), "at a light"},
-        Phrase{bits({kO}), "at an emissive object"},
-        Phrase{bits({kB}), "in the background"},
+        Phrase{kLight, "at any source of light"},       Phrase{bits({kL}), "at a light"},
+        Phrase{bits({kO}), "at an emissive object"},    Phrase{bits({kB}), "in the background"},
         Phrase{bits({kA}), "as a probe of the albedo"},
     };
     const Labels& labels = group.labels;
@@ -438,10 +436,11 @@ std::string EventNames::end_text(const Group& group) const {
                                                                      : some + label);
             return join_words(names, "or");
         };
-        const char* some = kind == kO ? "label " : "group ";
+        const char* some = kind == kO ? "" : "group ";
         std::string text = place;
         if (labels.form == Labels::Form::None) text += " without a " + what;
-        if (!labels.with.empty()) text += " of " + named(labels.with, "no group", some);
+        if (!labels.with.empty())
+            text += (kind == kO ? " labelled " : " of ") + named(labels.with, "no group", some);
         if (!labels.without.empty())
             text += (labels.without == Texts{std::string(kDefaultGroup)} && kind != kO)
                         ? " of some group"
@@ -449,7 +448,7 @@ std::string EventNames::end_text(const Group& group) const {
         Texts sets;
         for (const Texts& set : labels.listed)
             sets.push_back(set.empty() ? "no " + what : named(set, "no group", some));
-        if (!sets.empty()) text += " of " + join_words(sets, "or");
+        if (!sets.empty()) text += (kind == kO ? " labelled " : " of ") + join_words(sets, "or");
         places.push_back(text);
     };
     add(kL, "at a light", "group");

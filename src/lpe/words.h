@@ -101,7 +101,7 @@ class EventNames {
 
     std::vector<Event> events_;
     std::array<std::vector<std::size_t>, kKinds> of_kind_;  ///< indices into events_
-    Kinds present_ = 0;                                      ///< kinds that the list has
+    Kinds present_ = 0;                                     ///< kinds that the list has
     std::string other_group_{};
 };
 

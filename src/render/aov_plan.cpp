@@ -95,6 +95,7 @@ class Planner {
         plan_.table = table_.table();
         plan_.light_groups.assign(input_.light_groups.begin(), input_.light_groups.end());
         define_expressions();
+        plan_.custom = table_.custom();
         gather_outputs();
         resolve();
         compile();
