@@ -62,24 +62,34 @@ struct AllLabelUses {
     }
 };
 
-/// One label for each set of labels that are alike, one that may be an object label where there is
+/// The labels that are alike, together; the first is one that may be an object label where there is
 /// one.
-std::vector<std::string> distinct_labels(const LabelUses& uses, std::size_t limit) {
-    std::map<std::vector<std::size_t>, std::string> by_use;
+std::vector<std::vector<std::string>> alike(const LabelUses& uses) {
+    std::map<std::vector<std::size_t>, std::vector<std::string>> by_use;
     for (const auto& [label, use] : uses) {
-        const auto [entry, is_new] = by_use.emplace(use, label);
-        if (!is_new && !may_be_object_label(entry->second) && may_be_object_label(label))
-            entry->second = label;
+        std::vector<std::string>& labels = by_use[use];
+        labels.push_back(label);
+        if (!may_be_object_label(labels.front()) && may_be_object_label(label))
+            std::swap(labels.front(), labels.back());
     }
-    if (by_use.size() > limit)
+    std::vector<std::vector<std::string>> classes;
+    for (auto& [use, labels] : by_use)
+        classes.push_back(std::move(labels));
+    std::ranges::sort(classes);
+    return classes;
+}
+
+/// One label of each class.
+std::vector<std::string> distinct_labels(const LabelUses& uses, std::size_t limit) {
+    const std::vector<std::vector<std::string>> classes = alike(uses);
+    if (classes.size() > limit)
         throw InputError(OverBudget{
             Code::LimitLpeLabels,
-            "would have to tell " + std::to_string(by_use.size()) + " labels apart", "max_labels"}
+            "would have to tell " + std::to_string(classes.size()) + " labels apart", "max_labels"}
                              .error("the proof", {}));
     std::vector<std::string> labels;
-    for (const auto& [use, label] : by_use)
-        labels.push_back(label);
-    std::ranges::sort(labels);
+    for (const std::vector<std::string>& same : classes)
+        labels.push_back(same.front());
     return labels;
 }
 
@@ -230,6 +240,11 @@ std::vector<Event> abstract_events(std::span<const Expr> exprs, const Limits& li
     add_lights(EventKind::Background, {});
     events.push_back({EventKind::Albedo, EventLobe::None, {}});
     return events;
+}
+
+LabelClasses label_classes(std::span<const Expr> exprs) {
+    const AllLabelUses uses(exprs);
+    return {alike(uses.lobes), alike(uses.groups)};
 }
 
 std::optional<Path> shortest_path(const Expr& expr, const Limits& limits) {

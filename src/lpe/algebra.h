@@ -29,6 +29,14 @@ namespace lightsieve::lpe {
 [[nodiscard]] std::vector<Event> abstract_events(std::span<const Expr> exprs,
                                                  const Limits& limits = {});
 
+/// Labels that these expressions treat alike stand for one another in `abstract_events`.
+struct LabelClasses {
+    /// Of lobes (and emitters), and of lights; the first of each class is the one that
+    /// `abstract_events` uses.
+    std::vector<std::vector<std::string>> lobes{}, groups{};
+};
+[[nodiscard]] LabelClasses label_classes(std::span<const Expr> exprs);
+
 /// A shortest path that the expression takes; nothing if it takes none.
 [[nodiscard]] std::optional<Path> shortest_path(const Expr& expr, const Limits& limits = {});
 /// The same among the paths made of these events only.

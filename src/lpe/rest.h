@@ -17,8 +17,8 @@ namespace lightsieve::lpe {
 
 /// An expression for the paths of `whole` that no part takes; null if there are none.
 ///
-/// returns  an expression without references, equal to that set over all paths. One that would be
-///          longer than it helps (kMaxRestLength) is given as `whole - (a|b)` instead
+/// returns  an expression that takes exactly those, over all paths. Where the language of Arnold
+///          needs more than kMaxReadableLength for it, the shorter `whole - (a|b)`
 /// throws   InputError (limit)
 [[nodiscard]] Expr rest(const Expr& whole, std::span<const Expr> parts, const Limits& limits = {});
 /// The same among the paths made of these events (a scene's): it may say something else about
@@ -29,7 +29,8 @@ namespace lightsieve::lpe {
 /// The expression in the shortest form that is found; null for null and if it takes no path.
 [[nodiscard]] Expr simplify(const Expr& expr, const Limits& limits = {});
 
-/// Longest text [bytes] that `rest` looks for before it writes a difference.
-inline constexpr std::size_t kMaxRestLength = 240;
+/// A text up to this length is preferred to a difference, and longer ones are not looked for than
+/// kMaxRestLength [bytes].
+inline constexpr std::size_t kMaxReadableLength = 80, kMaxRestLength = 400;
 
 }  // namespace lightsieve::lpe
