@@ -9,8 +9,8 @@
 namespace lightsieve::lpe {
 namespace {
 
-/// Steps that a search among AOVs may take: about a hundredth of a second.
-constexpr std::size_t kMaxSearchSteps = 50'000;
+/// Looks at an AOV's regions that a search may take: about a hundredth of a second.
+constexpr std::size_t kMaxSearchSteps = 1'000'000;
 /// Events of a random walk after which what is left of it is too little to compare sizes.
 constexpr std::size_t kWalkLength = 32;
 /// Shares of a random walk that differ by less are equal.
@@ -183,7 +183,8 @@ class SumSearch {
 
   private:
     void search() {
-        if (++n_steps_ > kMaxSearchSteps || found_.size() >= max_sums_) return;
+        n_steps_ += parts_.candidates.size() + 1;
+        if (n_steps_ > kMaxSearchSteps || found_.size() >= max_sums_) return;
         const std::uint32_t region = hardest_region();
         if (region == covered_.size()) {
             Members sum = chosen_;
