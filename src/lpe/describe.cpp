@@ -168,7 +168,7 @@ class Describer {
             const bool both = std::holds_alternative<Intersection>(node.form);
             std::string out = join_words(clauses(*parts[0], from, to), "and");
             for (std::size_t i = 1; i < parts.size(); ++i)
-                out += std::string(both ? " (and at the same time " : " (but do not ") +
+                out += std::string(both ? " (where they also " : " (but not if they ") +
                        join_words(clauses(*parts[i], from, to), "and") + ")";
             return {out};
         }

@@ -346,7 +346,9 @@ std::vector<Sum> find_sums(std::span<const Region> regions, std::size_t n_aovs,
     for (Members& members : SumSearch(parts, 8 * max_sums).run())
         if (members.size() > 1 && !is_reducible(parts, members))
             out.push_back({whole, std::move(members)});
-    std::ranges::stable_sort(out, {}, [](const Sum& sum) { return sum.parts.size(); });
+    std::ranges::sort(out, [](const Sum& a, const Sum& b) {
+        return std::pair(a.parts.size(), a.parts) < std::pair(b.parts.size(), b.parts);
+    });
     if (out.size() > max_sums) out.resize(max_sums);
     return out;
 }

@@ -328,7 +328,6 @@ std::vector<std::string_view> EventNames::cover(Kinds kinds,
 
 std::string EventNames::label_text(const Group& group) const {
     static constexpr std::array kLetters{
-        Phrase{kScatter | kLight, "any event"},
         Phrase{kScatter, "any scattering"},
         Phrase{kLight, "any light"},
         Phrase{kSurface, "D S"},
