@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 from pathlib import Path
 
 from lightsieve.errors import LightsieveError, without_place
@@ -41,6 +40,8 @@ class Graph:
             >>> b"<svg" in Graph("digraph { a -> b }").render("svg")
             True
         """
+        import subprocess
+
         resolution = ["-Gdpi=144"] if kind == "png" else []
         try:
             done = subprocess.run(

@@ -33,7 +33,7 @@ JSON = {
     "`sums` (each `whole`, `parts`, `everywhere`: over all paths, not only those of this scene, "
     "`lost_elsewhere`: null or `text`, `words`), `missing` (null, or what the layers that come "
     "nearest to the beauty leave over: `parts`, `expression`, `builtins`, `example`, `left_out`), "
-    "`equal` and `contained` (pairs of names), `dead` (names of AOVs that are black in this scene)",
+    "`equal` and `contained` (pairs of names), `dead` (AOVs that are black in this scene)",
 }
 
 
