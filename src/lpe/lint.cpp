@@ -11,6 +11,7 @@
 #include "lpe/cursor.h"
 #include "lpe/parse.h"
 #include "lpe/predicate.h"
+#include "lpe/references.h"
 
 namespace lightsieve::lpe {
 namespace {
@@ -100,9 +101,16 @@ void lint_mixed(const Expr& expr, std::string_view aov_name, Diagnostics& diagno
 /// Reads the text as OSL would and asks whether that makes a difference.
 void lint_binding(std::string_view text, const SourceSpan& base, std::string_view aov_name,
                   const Expr& expr, Diagnostics& diagnostics) {
+    // What a name stands for does not change how far a bar reaches.
     Diagnostics unused;
-    const Expr tight = parse(text, base, unused, {aov_name, AlternationBinding::Tight});
-    if (tight && (equal(tight, expr) || equivalent(tight, expr))) return;
+    const auto read = [&](AlternationBinding binding) {
+        ParseOptions options{aov_name, binding};
+        options.keep_references = true;
+        return parse(text, base, unused, options);
+    };
+    const Expr tight = read(AlternationBinding::Tight);
+    if (equal(tight, read(AlternationBinding::Loose))) return;
+    if (tight && !has_unresolved(tight) && equivalent(tight, expr)) return;
     Cursor in(text, base, aov_name, diagnostics);
     // The first bar outside of labels.
     while (in.peek() != '|' && !in.at_end())
