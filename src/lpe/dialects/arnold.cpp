@@ -15,8 +15,7 @@ constexpr std::string_view kNoGroup = "default";
 
 constexpr std::array kFacts{
     Fact{"specular is one lobe here, rough or not", true},
-    Fact{"passing through a cut-out leaves no event", true, "",
-         Fact::bit(CommonKind::Straight)},
+    Fact{"passing through a cut-out leaves no event", true, "", Fact::bit(CommonKind::Straight)},
     Fact{"a light that has no group is in the group 'default'", true, "'default'"},
 };
 
@@ -61,7 +60,7 @@ EventKind kind_of(char letter) {
 }
 
 Event to_event(const Hit& hit) {
-    const EventLobe lobe = hit.lobe.empty() ? EventLobe::None
+    const EventLobe lobe = hit.lobe.empty()  ? EventLobe::None
                            : hit.lobe == "D" ? EventLobe::Diffuse
                                              : EventLobe::Specular;
     return {kind_of(hit.event), lobe, hit.labels};
@@ -121,8 +120,8 @@ std::vector<LetterText> letters(const LabelSets&) {
         out.push_back(bare_lobe(lobe, is_ordinary));
     for (const char letter : {'R', 'T', 'V', 'L', 'O', 'B', 'A'})
         out.push_back(bare_event(letter));
-    for (LetterText& tuple : tuples_of({event_place("R"), event_place("T")},
-                                       {lobe_place({"D"}), lobe_place({"S"})}))
+    for (LetterText& tuple :
+         tuples_of({event_place("R"), event_place("T")}, {lobe_place({"D"}), lobe_place({"S"})}))
         out.push_back(std::move(tuple));
     return out;
 }

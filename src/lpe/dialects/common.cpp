@@ -18,6 +18,7 @@ struct WithoutRow {
 constexpr std::array<WithoutRow, kWithouts> kWithout{{
     {"straight", "nothing in the scene is cut out by opacity or presence"},
     {"volumes", "the scene has no volumes"},
+    {"background", "nothing lies behind the scene but lights"},
     {"glossy", "every specular lobe is a perfect mirror or perfect glass"},
     {"mirrors", "no specular lobe is a perfect mirror or perfect glass"},
     {"object-labels", "no object is labelled"},
@@ -27,6 +28,7 @@ bool leaves_out(Without without, const CommonEvent& event) {
     switch (without) {
         case Without::Straight: return event.kind == CommonKind::Straight;
         case Without::Volumes: return event.kind == CommonKind::Volume;
+        case Without::Background: return event.kind == CommonKind::Background;
         case Without::Glossy: return event.lobe == CommonLobe::Glossy;
         case Without::Mirrors: return event.lobe == CommonLobe::Mirror;
         case Without::ObjectLabels: return !event.object.empty();
@@ -171,6 +173,14 @@ CommonAlphabet::CommonAlphabet(const CommonNames& names, std::span<const Without
         return (event.label.empty() ? 0 : 1) + (event.object.empty() ? 0 : 1) +
                (event.group.empty() ? 0 : 1);
     });
+    for (const CommonEvent& event : events_) {
+        CommonEvent twin = event;
+        twin.seen = !event.seen;
+        const auto found = std::ranges::find(events_, twin);
+        const auto self = &event - events_.data();
+        twins_.push_back(
+            static_cast<Symbol>(found == events_.end() ? self : found - events_.begin()));
+    }
 }
 
 void CommonAlphabet::add(CommonEvent event) {

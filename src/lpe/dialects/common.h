@@ -33,13 +33,13 @@ enum class CommonKind : std::uint8_t {
     Reflection,
     Transmission,
     Volume,
-    Straight,     ///< through a surface without scattering
-    Foreign,      ///< a scattering event that only one dialect has
-    Light,        ///< terminal from here on
+    Straight,  ///< through a surface without scattering
+    Foreign,   ///< a scattering event that only one dialect has
+    Light,     ///< terminal from here on
     Object,
     Background,
     Probe,
-    ForeignEnd,   ///< a terminal event that only one dialect has
+    ForeignEnd,  ///< a terminal event that only one dialect has
 };
 
 enum class CommonLobe : std::uint8_t { None, Diffuse, Glossy, Mirror };
@@ -69,21 +69,22 @@ using CommonPath = std::vector<CommonEvent>;
 enum class Without : std::uint8_t {
     Straight,      ///< nothing is cut out by opacity or presence
     Volumes,       ///< no scattering in media
+    Background,    ///< nothing lies behind the scene but lights
     Glossy,        ///< every specular lobe is a perfect mirror or glass
     Mirrors,       ///< no specular lobe is perfect
     ObjectLabels,  ///< no object is labelled
 };
-inline constexpr std::size_t kWithouts = 5;
-/// "straight", "volumes", "glossy", "mirrors", "object-labels".
+inline constexpr std::size_t kWithouts = 6;
+/// "straight", "volumes", "background", "glossy", "mirrors", "object-labels".
 [[nodiscard]] std::string_view without_name(Without without);
 /// What the scene does not have, for people: "nothing in the scene is cut out by opacity".
 [[nodiscard]] std::string_view without_meaning(Without without);
 
 /// The names that an alphabet tells apart.
 struct CommonNames {
-    std::vector<std::string> labels{};       ///< in expressions: each may be any kind of label
-    std::vector<std::string> lobes{};        ///< further labels, of lobes only
-    std::vector<std::string> foreign{};      ///< further events that scatter
+    std::vector<std::string> labels{};        ///< in expressions: each may be any kind of label
+    std::vector<std::string> lobes{};         ///< further labels, of lobes only
+    std::vector<std::string> foreign{};       ///< further events that scatter
     std::vector<std::string> foreign_ends{};  ///< further events that end a path
 };
 
@@ -103,6 +104,9 @@ class CommonAlphabet {
     /// The events without what the scene does not have.
     [[nodiscard]] SymbolSet all_without(Without without) const;
 
+    /// The same light or background, seen from the camera or not; any other event itself.
+    [[nodiscard]] Symbol twin(Symbol s) const { return twins_[s]; }
+
     /// States of the automaton of paths: `C`, scattering, one terminal; a probe and a light that
     /// is not seen directly need a vertex before them.
     enum PathState : std::uint8_t { kStart, kAtCamera, kAfterVertex, kEnd, kNoPath, kPathStates };
@@ -114,6 +118,7 @@ class CommonAlphabet {
                       std::span<const std::string> objects);
 
     std::vector<CommonEvent> events_;
+    std::vector<Symbol> twins_;
     std::vector<Without> without_;
 };
 

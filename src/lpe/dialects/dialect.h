@@ -21,10 +21,10 @@ namespace lightsieve::lpe::dialects {
 
 /// Something about a dialect that the translator relies on.
 struct Fact {
-    std::string_view text;      ///< one sentence, for people
-    bool verified = false;      ///< documented, read in the source or measured; else inferred
-    std::string_view mark{};    ///< matters only where the dialect's text contains it
-    std::uint32_t kinds = 0;    ///< matters only where one of these events occurs; 0: always
+    std::string_view text;    ///< one sentence, for people
+    bool verified = false;    ///< documented, read in the source or measured; else inferred
+    std::string_view mark{};  ///< matters only where the dialect's text contains it
+    std::uint32_t kinds = 0;  ///< matters only where one of these events occurs; 0: always
     /// The bit of a kind in `kinds`.
     [[nodiscard]] static constexpr std::uint32_t bit(CommonKind kind) {
         return std::uint32_t{1} << static_cast<unsigned>(kind);
@@ -44,13 +44,13 @@ struct View {
 
 /// A text that was read.
 struct Reading {
-    PatternPtr pattern;                       ///< null after an error
-    std::vector<std::string> labels{};        ///< every label that it names
+    PatternPtr pattern;                                  ///< null after an error
+    std::vector<std::string> labels{};                   ///< every label that it names
     std::vector<std::vector<std::string>> label_sets{};  ///< labels that stand in one [..]
-    std::vector<std::string> foreign{};       ///< events that only this dialect has
-    std::vector<std::string> foreign_ends{};  ///< the same, at the end of a path
-    std::vector<std::string> prefixes{};      ///< by their common name
-    std::vector<std::string> notes{};         ///< what happened while reading that one should know
+    std::vector<std::string> foreign{};                  ///< events that only this dialect has
+    std::vector<std::string> foreign_ends{};             ///< the same, at the end of a path
+    std::vector<std::string> prefixes{};                 ///< by their common name
+    std::vector<std::string> notes{};  ///< what happened while reading that one should know
 };
 
 /// A test of an event's letters: on its own (`D`), or inside <..> where labels may follow (`.D`).
@@ -78,8 +78,8 @@ enum class Repeats : std::uint8_t {
 };
 
 struct Dialect {
-    std::string_view name;    ///< `arnold`
-    std::string_view title;   ///< "Arnold and Lightsieve"
+    std::string_view name;   ///< `arnold`
+    std::string_view title;  ///< "Arnold and Lightsieve"
     std::span<const Fact> facts;
     std::span<const Prefix> prefixes;
     Repeats repeats = Repeats::StarAndPlus;

@@ -7,8 +7,8 @@ namespace lightsieve::lpe::dialects {
 
 std::span<const Dialect* const> dialects() {
     static const std::array all{
-        &arnold_dialect(),  &osl_dialect(),   &osl_placeholder_dialect(), &moonray_dialect(),
-        &renderman_dialect(), &karma_dialect(),
+        &arnold_dialect(),  &osl_dialect(),       &osl_placeholder_dialect(),
+        &moonray_dialect(), &renderman_dialect(), &karma_dialect(),
     };
     return all;
 }

@@ -13,8 +13,7 @@ constexpr std::array kFacts{
     Fact{"a `.` in the place of a tag also takes what has none", true, "."},
     Fact{"an event without the tag or label passes a [^'x']", false, "[^'"},
     Fact{"`|` and parentheses are in none of its documents", false, "("},
-    Fact{"passing through a cut-out leaves no event", false, "",
-         Fact::bit(CommonKind::Straight)},
+    Fact{"passing through a cut-out leaves no event", false, "", Fact::bit(CommonKind::Straight)},
     Fact{"`.` does not take the albedo terminal A", false, "."},
     Fact{"a light's tag is its group", false, "<L"},
     Fact{"the background may carry a tag", false, "<B"},
@@ -82,8 +81,8 @@ std::vector<LetterText> letters(const LabelSets&) {
         out.push_back(bare_lobe(lobe, any_event));
     for (const char letter : {'R', 'T', 'V', 'L', 'O', 'B', 'A'})
         out.push_back(bare_event(letter));
-    for (LetterText& tuple : tuples_of({event_place("R"), event_place("T")},
-                                       {lobe_place({"D"}), lobe_place({"G"})}))
+    for (LetterText& tuple :
+         tuples_of({event_place("R"), event_place("T")}, {lobe_place({"D"}), lobe_place({"G"})}))
         out.push_back(std::move(tuple));
     return out;
 }

@@ -23,8 +23,8 @@ class Steps {
     explicit Steps(const Limits& limits) : limits_(limits) {}
     void count(std::size_t n) {
         n_ += n;
-        // A step here is one position looked at, far cheaper than a derivative.
-        if (n_ > limits_.max_steps * 8)
+        // A step here is one position or transition looked at.
+        if (n_ > limits_.max_steps)
             throw OverBudget{Code::LimitLpeSteps,
                              "needs more than " + std::to_string(limits_.max_steps) + " steps",
                              "max_steps"};
@@ -128,20 +128,18 @@ Automaton all_light(const CommonAlphabet& alphabet, const Limits& limits) {
         return kind != CommonKind::Probe && kind != CommonKind::ForeignEnd;
     };
     classify(out, alphabet, [&](Symbol s) {
-        return std::vector<std::uint32_t>{alphabet.step(CommonAlphabet::kStart, s),
-                                          alphabet.step(CommonAlphabet::kAtCamera, s),
-                                          alphabet.step(CommonAlphabet::kAfterVertex, s),
-                                          is_light(s) ? 1U : 0U};
+        return std::vector<std::uint32_t>{
+            alphabet.step(CommonAlphabet::kStart, s), alphabet.step(CommonAlphabet::kAtCamera, s),
+            alphabet.step(CommonAlphabet::kAfterVertex, s), is_light(s) ? 1U : 0U};
     });
     const auto expand = [&](const std::vector<std::uint32_t>& state, Symbol s) {
         const auto path = static_cast<CommonAlphabet::PathState>(state[0]);
         return std::vector<std::uint32_t>{is_light(s) ? alphabet.step(path, s)
                                                       : CommonAlphabet::kNoPath};
     };
-    explore(out, {CommonAlphabet::kStart}, limits, expand,
-            [](const std::vector<std::uint32_t>& state) {
-                return state[0] == CommonAlphabet::kEnd;
-            });
+    explore(
+        out, {CommonAlphabet::kStart}, limits, expand,
+        [](const std::vector<std::uint32_t>& state) { return state[0] == CommonAlphabet::kEnd; });
     return out;
 }
 
@@ -227,8 +225,8 @@ Automaton mixed_paths(const Pattern& pattern, const CommonAlphabet& alphabet,
                 others.push_back(!has_boolean(*part)  ? part
                                  : is_nullable(*part) ? make_empty()
                                                       : make_nothing());
-            parts.push_back(paths_of(*make_sequence(std::move(others)), alphabet, invisible,
-                                     limits));
+            parts.push_back(
+                paths_of(*make_sequence(std::move(others)), alphabet, invisible, limits));
             return combine(parts, alphabet, limits, any);
         }
         default: break;
@@ -314,8 +312,8 @@ std::optional<CommonPath> path_outside(const Automaton& a, const Automaton& b,
     return std::nullopt;
 }
 
-std::optional<CommonPath> shortest_path(const Automaton& automaton,
-                                        const CommonAlphabet& alphabet, const Limits& limits) {
+std::optional<CommonPath> shortest_path(const Automaton& automaton, const CommonAlphabet& alphabet,
+                                        const Limits& limits) {
     Automaton nothing = automaton;
     nothing.accepts.assign(automaton.n_states(), false);
     return path_outside(automaton, nothing, alphabet, alphabet.all(), limits);

@@ -23,8 +23,8 @@ namespace lightsieve::lpe::dialects {
 struct Automaton {
     std::vector<std::uint32_t> class_of;  ///< per symbol
     std::uint32_t n_classes = 0;
-    std::vector<std::uint32_t> next;      ///< next[state * n_classes + class]
-    std::vector<bool> accepts;            ///< per state
+    std::vector<std::uint32_t> next;  ///< next[state * n_classes + class]
+    std::vector<bool> accepts;        ///< per state
     std::uint32_t start = 0;
 
     [[nodiscard]] std::size_t n_states() const { return accepts.size(); }

@@ -10,12 +10,13 @@ namespace {
 constexpr std::string_view kPlaceholder = "placeholder";
 
 constexpr std::array kFacts{
-    Fact{"`|` joins one item on each side, and what follows a leading parenthesis is ignored", true,
-         "|"},
+    Fact{"`|` joins one item on each side, and what follows a leading parenthesis is ignored",
+         true, "|"},
     Fact{"G is glossy, S is a perfect mirror only", true},
     Fact{"labels are tested in order", true, "'"},
     Fact{"an event without labels does not pass a [^'x']", true, "[^'"},
-    Fact{"passing through a cut-out is an event <Ts>", true, "s>", Fact::bit(CommonKind::Straight)},
+    Fact{"passing through a cut-out is an event <Ts>", true, "s>",
+         Fact::bit(CommonKind::Straight)},
     Fact{"the lobe's label comes before the object's, if a renderer gives both", false, "'"},
     Fact{"the label of a light is its group; a light without one has no label", false, "<L."},
     Fact{"a skydome that the camera sees is the background B; one that lights a surface is L",

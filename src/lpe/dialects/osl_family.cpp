@@ -69,21 +69,20 @@ std::vector<LetterText> osl_letters() {
         out.push_back(bare_lobe(lobe, any_event));
     for (const char letter : {'R', 'T', 'V', 'L', 'O', 'B'})
         out.push_back(bare_event(letter));
-    const std::vector<PlaceText> lobes{lobe_place({"D"}), lobe_place({"G"}), lobe_place({"S"}),
-                                       lobe_place({"s"}), lobe_place({"G", "S"}),
-                                       lobe_place({"D", "G"}), lobe_place({"D", "S"}),
-                                       lobe_place({"D", "G", "S"})};
+    const std::vector<PlaceText> lobes{lobe_place({"D"}),      lobe_place({"G"}),
+                                       lobe_place({"S"}),      lobe_place({"s"}),
+                                       lobe_place({"G", "S"}), lobe_place({"D", "G"}),
+                                       lobe_place({"D", "S"}), lobe_place({"D", "G", "S"})};
     for (LetterText& tuple : tuples_of({event_place("R"), event_place("T")}, lobes))
         out.push_back(std::move(tuple));
     // A choice of lobes of any event: bare letters do without labels, <..> with them.
     for (const PlaceText& lobe : lobes)
-        if (lobe.text.size() > 1)
-            out.push_back({lobe.text, "." + lobe.text, lobe.test});
+        if (lobe.text.size() > 1) out.push_back({lobe.text, "." + lobe.text, lobe.test});
     return out;
 }
 
-Reading read_osl_as_meant(std::string_view text, const SourceSpan& base,
-                          Diagnostics& diagnostics, std::string_view user_events) {
+Reading read_osl_as_meant(std::string_view text, const SourceSpan& base, Diagnostics& diagnostics,
+                          std::string_view user_events) {
     return read_tuples(text, base, diagnostics, user_events.empty() ? kAsMeant : kMoonrayAsMeant);
 }
 

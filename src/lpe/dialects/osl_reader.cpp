@@ -26,7 +26,6 @@ std::vector<std::string> symbols_of(const Hit& hit) {
     return symbols;
 }
 
-
 /// What one item inside <..> is: one symbol, any but some, one of several items, or several in a
 /// row.
 struct Item {
@@ -44,8 +43,7 @@ bool equal_symbols(const std::string& carried, const std::string& wanted) {
 
 /// Where matching the item can end if it begins at each of these places.
 std::vector<std::size_t> match_item(const Item& item, const std::vector<std::string>& hit,
-                                    const std::vector<std::size_t>& places,
-                                    const SymbolTest& is) {
+                                    const std::vector<std::size_t>& places, const SymbolTest& is) {
     std::vector<std::size_t> out;
     const auto add_all = [&](const std::vector<std::size_t>& more) {
         out.insert(out.end(), more.begin(), more.end());
@@ -142,16 +140,20 @@ class OslParser {
                 "put the whole expression into one more pair of parentheses");
     }
 
+    /// One level deeper; false, after a report, where that is too deep.
+    bool descend(std::size_t begin) {
+        if (++depth_ <= kMaxNesting) return true;
+        in_.error(Code::LimitLpeNesting, "brackets are nested too deep", begin, begin + 1,
+                  "the limit kMaxNesting is " + std::to_string(kMaxNesting));
+        in_.abandon();
+        return false;
+    }
+
     /// parseCat: a parenthesised sequence, or the whole text.
     PatternPtr parse_sequence() {
         const std::size_t begin = in_.position();
         const bool group = in_.take_if('(');
-        if (++depth_ > kMaxNesting) {
-            in_.error(Code::LimitLpeNesting, "parentheses are nested too deep", begin, begin + 1,
-                      "the limit kMaxNesting is " + std::to_string(kMaxNesting));
-            in_.abandon();
-            return make_nothing();
-        }
+        if (!descend(begin)) return make_nothing();
         std::vector<PatternPtr> parts;
         while (!in_.at_end() && !give_up() && !(group && in_.peek() == ')')) {
             if (in_.peek() == '|')
@@ -196,10 +198,14 @@ class OslParser {
 
     PatternPtr parse_quantifier(PatternPtr item) {
         const std::size_t begin = in_.position();
-        if (in_.take_if('*')) item = make_repeat(std::move(item), 0, Pattern::kUnbounded);
-        else if (in_.take_if('+')) item = make_repeat(std::move(item), 1, Pattern::kUnbounded);
-        else if (in_.take_if('{')) return parse_counts(std::move(item), begin);
-        else return item;
+        if (in_.take_if('*'))
+            item = make_repeat(std::move(item), 0, Pattern::kUnbounded);
+        else if (in_.take_if('+'))
+            item = make_repeat(std::move(item), 1, Pattern::kUnbounded);
+        else if (in_.take_if('{'))
+            return parse_counts(std::move(item), begin);
+        else
+            return item;
         return item;
     }
 
@@ -208,6 +214,9 @@ class OslParser {
         const bool comma = in_.take_if(',');
         const std::optional<std::uint32_t> max = comma ? parse_number() : min;
         if (!min || !in_.take_if('}')) {
+            while (in_.peek_is_one_of(" ,0123456789"))
+                in_.take();
+            (void)in_.take_if('}');
             in_.error(Code::LpeQuantifier, "a malformed {}", begin, in_.position(),
                       "write {2}, {2,} or {2,5}, without blanks");
             return item;
@@ -227,8 +236,7 @@ class OslParser {
                     "the smaller number comes first");
             return make_repeat(std::move(item), *min, *min);
         }
-        return make_repeat(std::move(item), *min,
-                           max ? *max : Pattern::kUnbounded);
+        return make_repeat(std::move(item), *min, max ? *max : Pattern::kUnbounded);
     }
 
     std::optional<std::uint32_t> parse_number() {
@@ -273,8 +281,8 @@ class OslParser {
             items.emplace_back();
         SymbolTest is = equal_symbols;
         if (options_.dotted_labels) is = is_dotted_label;
-        return make_event(HitItems{std::move(items), open_end,
-                                   events_ + std::string(kScatterings), std::move(is)});
+        return make_event(HitItems{std::move(items), open_end, events_ + std::string(kScatterings),
+                                   std::move(is)});
     }
 
     /// One letter, `.` or label outside of <..>.
@@ -324,10 +332,9 @@ class OslParser {
         } else if (c == 'A' || c == 'x' || c == 'c' || c == 'U' || c == 'M') {
             in_.take();
             in_.error(Code::LpeEvent, "no event " + in_quotes({&c, 1}), begin, begin + 1,
-                      c == 'c' ? "events are capital letters: \"C\""
-                      : c == 'A'
-                          ? "albedo is a user event here; ask the renderer for its letter"
-                          : "events are C D G S s R T V L O B and . (any)");
+                      c == 'c'   ? "events are capital letters: \"C\""
+                      : c == 'A' ? "albedo is a user event here; ask the renderer for its letter"
+                                 : "events are C D G S s R T V L O B and . (any)");
         } else {
             in_.reject_character();
         }
@@ -337,6 +344,7 @@ class OslParser {
         const std::size_t begin = in_.position();
         in_.take();
         if (in_.peek() == '^') return hit_of_negation(begin);
+        if (!descend(begin)) return make_nothing();
         std::vector<PatternPtr> parts;
         while (!in_.at_end() && !give_up() && in_.peek() != ']') {
             if (in_.peek() == ')' || in_.peek() == '>') {
@@ -345,6 +353,7 @@ class OslParser {
             }
             parts.push_back(parse_item());
         }
+        --depth_;
         close(begin, '[', ']');
         if (parts.empty() && in_.n_errors() == 0)
             misread("takes nothing by an empty choice", begin, "any event is written .");
@@ -406,7 +415,7 @@ class OslParser {
         return hit(std::move(items));
     }
     void warn_unlabelled(std::size_t begin) {
-        if (options_.every_event_is_labelled) return;
+        if (options_.every_event_is_labelled || in_.n_errors() > 0) return;
         misread("takes no unlabelled event by this", begin,
                 "stock OSL cannot say \"not this label or none\"; the renderer must give every "
                 "event a label");
@@ -418,7 +427,7 @@ class OslParser {
         in_.take();
         std::vector<Item> items;
         while (!in_.at_end() && !give_up() && in_.peek() != '>')
-            items.push_back(parse_inner_item(items.size(), 0));
+            items.push_back(parse_inner_item(items.size()));
         close(begin, '<', '>');
         if (items.empty() && in_.n_errors() == 0)
             misread("takes any event by <>", begin, "any event is written .");
@@ -446,23 +455,30 @@ class OslParser {
     }
 
     /// An item inside <..>; `place` is its index there.
-    Item parse_inner_item(std::size_t place, std::size_t depth) {
+    Item parse_inner_item(std::size_t place) {
         const std::size_t begin = in_.position();
         Item item;
-        if (depth > kMaxNesting) {
-            in_.error(Code::LimitLpeNesting, "brackets are nested too deep", begin, begin + 1,
-                      "the limit kMaxNesting is " + std::to_string(kMaxNesting));
-            in_.abandon();
-            return item;
+        if (!descend(begin)) return item;
+        item = parse_inner_symbol(begin, place);
+        --depth_;
+        if (in_.peek_is_one_of("*+{")) {
+            const std::size_t at = in_.position();
+            in_.take();
+            in_.error(Code::LpeQuantifier, "a quantifier inside <..>", at, at + 1,
+                      "put it after the \">\"");
         }
+        return item;
+    }
+    Item parse_inner_symbol(std::size_t begin, std::size_t place) {
+        Item item;
         if (in_.peek() == '[') {
             in_.take();
             item = in_.peek() == '^' ? parse_inner_negation(begin, place)
-                                     : parse_inner_choice(begin, place, depth);
+                                     : parse_inner_choice(begin, place);
         } else if (in_.take_if('(')) {
             item.form = Item::Form::Row;
             while (!in_.at_end() && !give_up() && !in_.peek_is_one_of(")>"))
-                item.items.push_back(parse_inner_item(place, depth + 1));
+                item.items.push_back(parse_inner_item(place));
             close(begin, '(', ')');
         } else if (in_.peek() == '<') {
             in_.take();
@@ -477,31 +493,25 @@ class OslParser {
             item = {Item::Form::One, {c == 'x' ? "" : std::string{c}}, {}};
             if (c != 'x') warn_dead_character(item.symbols[0], begin);
         }
-        if (in_.peek_is_one_of("*+{")) {
-            const std::size_t at = in_.position();
-            in_.take();
-            in_.error(Code::LpeQuantifier, "a quantifier inside <..>", at, at + 1,
-                      "put it after the \">\"");
-        }
         return item;
     }
     void warn_dead_character(const std::string& symbol, std::size_t begin) {
         const char c = symbol[0];
         if (events_.find(c) != std::string::npos) return note_user_event(symbol);
         if (kScatterings.find(c) != std::string_view::npos) return;
-        misread("reads " + in_quotes(symbol) + " inside <..> as a letter that no event has",
-                begin, c == ' ' ? "leave the blank out" : "leave it out");
+        misread("reads " + in_quotes(symbol) + " inside <..> as a letter that no event has", begin,
+                c == ' ' ? "leave the blank out" : "leave it out");
     }
     Item parse_inner_negation(std::size_t begin, std::size_t place) {
         Item item = parse_negation(begin).item;
         if (place >= 2) warn_unlabelled(begin);
         return item;
     }
-    Item parse_inner_choice(std::size_t begin, std::size_t place, std::size_t depth) {
+    Item parse_inner_choice(std::size_t begin, std::size_t place) {
         Item item{Item::Form::Choice, {}, {}};
         std::vector<std::string> labels;
         while (!in_.at_end() && !give_up() && !in_.peek_is_one_of("]>")) {
-            item.items.push_back(parse_inner_item(place, depth + 1));
+            item.items.push_back(parse_inner_item(place));
             if (item.items.back().form == Item::Form::One)
                 labels.push_back(item.items.back().symbols[0]);
         }

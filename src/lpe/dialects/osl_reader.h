@@ -19,7 +19,7 @@ struct OslOptions {
     std::string_view user_events{};     ///< letters of further events that end a path
     /// A label without a dot stands for every `material.lobe` with it (MoonRay).
     bool dotted_labels = false;
-    bool trims_labels = false;  ///< blanks at a label's ends do not count
+    bool trims_labels = false;             ///< blanks at a label's ends do not count
     bool every_event_is_labelled = false;  ///< by a placeholder if by nothing else
 };
 

@@ -52,10 +52,9 @@ PatternPtr make_alternation(std::vector<PatternPtr> parts) {
         return part->form == Pattern::Form::Nothing || part->form == Pattern::Form::Empty;
     });
     if (parts.empty()) return optional ? make_empty() : make_nothing();
-    PatternPtr all =
-        parts.size() == 1
-            ? parts[0]
-            : make({.form = Pattern::Form::Alternation, .parts = std::move(parts)});
+    PatternPtr all = parts.size() == 1
+                         ? parts[0]
+                         : make({.form = Pattern::Form::Alternation, .parts = std::move(parts)});
     return optional && !is_nullable(*all) ? make_repeat(std::move(all), 0, 1) : all;
 }
 
@@ -69,8 +68,8 @@ PatternPtr make_repeat(PatternPtr body, std::uint32_t min, std::uint32_t max) {
         min = std::min(min, body->min);
         body = body->parts[0];
     }
-    return make({.form = Pattern::Form::Repeat, .parts = {std::move(body)}, .min = min,
-                 .max = max});
+    return make(
+        {.form = Pattern::Form::Repeat, .parts = {std::move(body)}, .min = min, .max = max});
 }
 
 PatternPtr make_boolean(Pattern::Form form, std::vector<PatternPtr> parts) {

@@ -16,9 +16,10 @@ namespace lightsieve::lpe::dialects {
 
 /// One event as a dialect's expressions see it.
 struct Hit {
-    char event = 'C';        ///< C R T V L O B A, or a dialect's own letter
-    std::string lobe{};      ///< D, G, S, s, S4, ...; empty: none
-    std::vector<std::string> labels{};  ///< in the dialect's order; an empty one: that place is free
+    char event = 'C';    ///< C R T V L O B A, or a dialect's own letter
+    std::string lobe{};  ///< D, G, S, s, S4, ...; empty: none
+    std::vector<std::string>
+        labels{};  ///< in the dialect's order; an empty one: that place is free
 
     friend bool operator==(const Hit&, const Hit&) = default;
 };
@@ -42,9 +43,9 @@ struct Pattern {
         Complement,    ///< the light paths that parts[0] does not take
     };
     Form form = Form::Nothing;
-    HitTest test{};              ///< Event: as it was read
-    SymbolSet events{};          ///< Event: once it is resolved
-    std::string text{};          ///< Event: in the dialect that it is to be written in
+    HitTest test{};      ///< Event: as it was read
+    SymbolSet events{};  ///< Event: once it is resolved
+    std::string text{};  ///< Event: in the dialect that it is to be written in
     std::vector<PatternPtr> parts{};
     std::uint32_t min = 1, max = 1;  ///< Repeat
 };

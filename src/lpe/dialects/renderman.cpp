@@ -35,9 +35,12 @@ constexpr std::array kFacts{
 };
 
 constexpr std::array kPrefixes{
-    Prefix{"unoccluded", "unoccluded"}, Prefix{"noclamp", "noclamp"},
-    Prefix{"nothruput", "nothruput"},   Prefix{"shadow", "shadows"},
-    Prefix{"holdouts", "holdouts"},     Prefix{"overwrite", "overwrite"},
+    Prefix{"unoccluded", "unoccluded"},
+    Prefix{"noclamp", "noclamp"},
+    Prefix{"nothruput", "nothruput"},
+    Prefix{"shadow", "shadows"},
+    Prefix{"holdouts", "holdouts"},
+    Prefix{"overwrite", "overwrite"},
     Prefix{"noinfinitecheck", "noinfinitecheck"},
 };
 
@@ -47,14 +50,14 @@ struct Slot {
     std::string_view lobe, label;
 };
 constexpr std::array kSlots{
-    Slot{"D2", "diffuse"},       Slot{"D3", "subsurface"},  Slot{"D4", "diffuse4"},
-    Slot{"S2", "specular"},      Slot{"S3", "rough"},       Slot{"S4", "coat"},
-    Slot{"S5", "iridescence"},   Slot{"S6", "sheen"},       Slot{"S7", "single_scatter"},
+    Slot{"D2", "diffuse"},     Slot{"D3", "subsurface"}, Slot{"D4", "diffuse4"},
+    Slot{"S2", "specular"},    Slot{"S3", "rough"},      Slot{"S4", "coat"},
+    Slot{"S5", "iridescence"}, Slot{"S6", "sheen"},      Slot{"S7", "single_scatter"},
     Slot{"S8", "glass"},
 };
 constexpr std::array<std::string_view, kSlots.size()> kSlotLabels{
-    "diffuse", "subsurface", "diffuse4", "specular", "rough",
-    "coat",    "iridescence", "sheen",   "single_scatter", "glass"};
+    "diffuse", "subsurface",  "diffuse4", "specular",       "rough",
+    "coat",    "iridescence", "sheen",    "single_scatter", "glass"};
 
 std::string slot_of(char lobe, const std::string& label) {
     for (const Slot& slot : kSlots)
@@ -88,9 +91,7 @@ View view(const CommonEvent& event) {
     return {View::Form::Absent, {}};
 }
 
-bool any_event(const Hit& hit) {
-    return hit.event == 'R' || hit.event == 'T' || hit.event == 'U';
-}
+bool any_event(const Hit& hit) { return hit.event == 'R' || hit.event == 'T' || hit.event == 'U'; }
 bool any_lobe(const Hit& hit) { return hit.event != 'U'; }
 bool any(const Hit& hit) { return any_event(hit) && any_lobe(hit); }
 
@@ -143,10 +144,9 @@ Reading read_with(std::string_view text, SourceSpan base, Diagnostics& diagnosti
     skip("color ");
     skip("lpe:");
     take_prefixes(text, base, kPrefixes, "RenderMan", false, before, diagnostics);
-    const bool is_name =
-        text.size() > 1 && std::ranges::all_of(text, [](unsigned char c) {
-            return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_';
-        });
+    const bool is_name = text.size() > 1 && std::ranges::all_of(text, [](unsigned char c) {
+                             return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_';
+                         });
     if (is_name) {
         diagnostics.error(Code::LpeEvent,
                           "\"" + std::string(text) +
@@ -173,8 +173,8 @@ void add_slots(std::vector<PlaceText>& lobes, const std::vector<std::string>& la
     for (std::size_t i = 1; i <= n; ++i) {
         const std::string lobe = letter + std::to_string(i);
         const bool named = i > 1 && std::ranges::any_of(labels, [&](const std::string& label) {
-            return slot_of(letter, label) == lobe;
-        });
+                               return slot_of(letter, label) == lobe;
+                           });
         (named ? with : without).push_back(lobe);
     }
     if (with.empty()) return;
@@ -183,8 +183,8 @@ void add_slots(std::vector<PlaceText>& lobes, const std::vector<std::string>& la
 }
 
 std::vector<LetterText> letters(const LabelSets& sets) {
-    std::vector<LetterText> out{{".", "..", any}, bare_event('C'), bare_event('L'),
-                                bare_event('O')};
+    std::vector<LetterText> out{
+        {".", "..", any}, bare_event('C'), bare_event('L'), bare_event('O')};
     for (const char* lobe : {"D", "S"})
         out.push_back(bare_lobe(lobe, any));
     for (const char letter : {'R', 'T'})
@@ -197,9 +197,8 @@ std::vector<LetterText> letters(const LabelSets& sets) {
             add_slots(lobes, set, letter, n);
     }
     for (const PlaceText& lobe : lobes)
-        out.push_back({lobe.text, "." + lobe.text, [test = lobe.test](const Hit& hit) {
-                           return any(hit) && test(hit);
-                       }});
+        out.push_back({lobe.text, "." + lobe.text,
+                       [test = lobe.test](const Hit& hit) { return any(hit) && test(hit); }});
     for (LetterText& tuple : tuples_of({event_place("R"), event_place("T")}, lobes))
         out.push_back(std::move(tuple));
     for (std::size_t i = 1; i <= kOptions.max_number; ++i) {

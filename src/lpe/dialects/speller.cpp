@@ -24,6 +24,12 @@ std::string_view as_item(std::string_view text) {
     return choice ? text.substr(1, text.size() - 2) : text;
 }
 
+/// Letters come first in a choice, in the order in which people list them.
+std::size_t rank(std::string_view text) {
+    constexpr std::string_view kOrder = "CDGSsRTVLOBA";
+    return std::min(kOrder.find(as_item(text)[0]), kOrder.size());
+}
+
 }  // namespace
 
 Sight::Sight(const Dialect& dialect, const CommonAlphabet& alphabet)
@@ -43,7 +49,7 @@ Speller::Speller(const Dialect& dialect, const CommonAlphabet& alphabet, const S
     std::vector<std::pair<std::string, SymbolSet>> labels;
     for (const LabelText& label : dialect.labels(label_sets))
         labels.emplace_back(label.text, taken_by(label.test, alphabet, sight));
-    // Of tests that take the same, the shortest and first is kept.
+    // Of tests that take the same, the shortest is kept; of those, the one that says most.
     std::map<SymbolSet, std::size_t> known;
     for (const LetterText& letter : dialect.letters(label_sets)) {
         const SymbolSet letters = taken_by(letter.test, alphabet, sight);
@@ -56,7 +62,7 @@ Speller::Speller(const Dialect& dialect, const CommonAlphabet& alphabet, const S
             const auto [entry, is_new] = known.try_emplace(events, tiles_.size());
             if (is_new)
                 tiles_.push_back({std::move(text), std::move(events)});
-            else if (text.size() < tiles_[entry->second].text.size())
+            else if (text.size() <= tiles_[entry->second].text.size())
                 tiles_[entry->second].text = std::move(text);
         }
     }
@@ -71,6 +77,7 @@ Speller::Spelled Speller::spell(const SymbolSet& wanted, const SymbolSet& free) 
     Tiles chosen = best_one_or_two(usable, wanted);
     if (chosen.empty()) chosen = greedy(usable, wanted);
     std::ranges::sort(chosen);
+    std::ranges::stable_sort(chosen, {}, [](const Tile* tile) { return rank(tile->text); });
     Spelled out{"", chosen[0]->events};
     for (const Tile* tile : chosen) {
         out.text += chosen.size() > 1 ? as_item(tile->text) : std::string_view(tile->text);

@@ -1,6 +1,7 @@
 #include "lpe/dialects/translate.h"
 
 #include <algorithm>
+#include <bit>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -16,8 +17,9 @@ namespace {
 /// Rewrites tried to make a text shorter.
 constexpr std::size_t kMaxRewrites = 64;
 /// Automata larger than this are not worth comparing again for each of them.
-constexpr std::size_t kMaxRewriteStates = 2000;
-/// A pattern made from an automaton that is longer than this helps nobody.
+constexpr std::size_t kMaxRewriteStates = 300;
+/// A pattern made from an automaton of more states, or that is longer than this, helps nobody.
+constexpr std::size_t kMaxEliminatedStates = 40;
 constexpr std::size_t kMaxEliminatedNodes = 400;
 constexpr std::uint32_t kUnbounded = Pattern::kUnbounded;
 
@@ -57,10 +59,10 @@ CommonNames names_of(std::span<const Reading* const> readings,
     std::ranges::sort(names.labels);
     names.labels.erase(std::unique(names.labels.begin(), names.labels.end()), names.labels.end());
     if (names.labels.size() > kMaxLabels)
-        throw OverBudget{Code::LimitLpeLabels,
-                         "would have to tell " + std::to_string(names.labels.size()) +
-                             " labels apart",
-                         "kMaxLabels = " + std::to_string(kMaxLabels)};
+        throw OverBudget{
+            Code::LimitLpeLabels,
+            "would have to tell " + std::to_string(names.labels.size()) + " labels apart",
+            "kMaxLabels = " + std::to_string(kMaxLabels)};
     return names;
 }
 
@@ -98,6 +100,34 @@ PatternPtr with_events_joined(const Pattern& pattern) {
     }
 }
 
+/// A copy with xx* and x*x as x+, for events x.
+PatternPtr with_plus(const Pattern& pattern) {
+    if (pattern.form == Pattern::Form::Event) return make_events(pattern.events, pattern.text);
+    if (pattern.parts.empty()) return std::make_shared<Pattern>(pattern);
+    const auto is_star_of = [](const Pattern& star, const Pattern& event) {
+        return star.form == Pattern::Form::Repeat && star.min == 0 && star.max == kUnbounded &&
+               event.form == Pattern::Form::Event && star.parts[0]->form == Pattern::Form::Event &&
+               star.parts[0]->text == event.text;
+    };
+    std::vector<PatternPtr> parts;
+    for (const PatternPtr& part : pattern.parts) {
+        PatternPtr copy = with_plus(*part);
+        const bool joins = pattern.form == Pattern::Form::Sequence && !parts.empty() &&
+                           (is_star_of(*copy, *parts.back()) || is_star_of(*parts.back(), *copy));
+        if (joins) {
+            PatternPtr event = copy->form == Pattern::Form::Event ? copy : copy->parts[0];
+            parts.back() = make_repeat(std::move(event), 1, kUnbounded);
+        } else {
+            parts.push_back(std::move(copy));
+        }
+    }
+    switch (pattern.form) {
+        case Pattern::Form::Sequence: return make_sequence(std::move(parts));
+        case Pattern::Form::Alternation: return make_alternation(std::move(parts));
+        default: return make_repeat(std::move(parts[0]), pattern.min, pattern.max);
+    }
+}
+
 bool has_boolean(const Pattern& pattern) {
     return is_boolean(pattern.form) ||
            std::ranges::any_of(pattern.parts,
@@ -107,10 +137,16 @@ bool has_boolean(const Pattern& pattern) {
 /// The pattern, its events spelled in a dialect.
 class Speaker {
   public:
-    /// inserted  events that the pattern passes over and the dialect sees
+    /// inserted     events that the pattern passes over and the dialect sees
+    /// keeps_tests  write tests that take what the pattern's tests take, even if shorter ones
+    ///              would do where they stand
     Speaker(const CommonAlphabet& alphabet, const Sight& sight, const Speller& speller,
-            const SymbolSet& inserted, const Limits& limits)
-        : alphabet_(alphabet), sight_(sight), speller_(speller), limits_(limits) {
+            const SymbolSet& inserted, bool keeps_tests, const Limits& limits)
+        : alphabet_(alphabet),
+          sight_(sight),
+          speller_(speller),
+          keeps_tests_(keeps_tests),
+          limits_(limits) {
         if (!inserted.empty()) inserted_ = speller_.spell(inserted, alphabet.none());
     }
 
@@ -128,12 +164,26 @@ class Speaker {
         const SymbolSet visible = use.taken & sight_.visible;
         const bool may_vanish = use.taken.intersects(sight_.invisible);
         if (visible.empty()) return may_vanish ? make_empty() : make_nothing();
-        PatternPtr event = spelled(visible, use.free & sight_.visible);
+        if (visible.count() == 1 && visible.has(0)) return spelled(visible, alphabet_.none());
+        const SymbolSet free = free_of(node, use);
+        PatternPtr event = spelled(visible, free);
+        // Rather a test that is not alike than one that takes too much.
+        if (!(visible | free).contains(event->events)) event = spelled(visible, use.free);
         if (may_vanish) event = make_repeat(event, 0, 1);
-        const bool is_camera = visible.count() == 1 && visible.has(0);
-        if (!inserted_ || is_camera) return event;
-        frees_.emplace(event.get(), use.free);
+        if (!inserted_) return event;
+        frees_.emplace(event.get(), free);
         return make_sequence({any_inserted(), event});
+    }
+
+    /// What a test may take beside what it must: what the pattern's own test takes where nothing
+    /// comes of it.
+    [[nodiscard]] SymbolSet free_of(const Pattern& node, const EventUse& use) const {
+        if (!keeps_tests_) return use.free & sight_.visible;
+        SymbolSet alike = node.events;
+        alike.add(0);
+        for (Symbol s = 0; s < alphabet_.size(); ++s)
+            if (node.events.has(s)) alike.add(alphabet_.twin(s));
+        return use.free & sight_.visible & alike;
     }
 
     PatternPtr spelled(const SymbolSet& wanted, const SymbolSet& free) const {
@@ -199,9 +249,9 @@ class Speaker {
         const auto free = frees_.find(event);
         if (event->form == Pattern::Form::Repeat) event = event->parts[0].get();
         if (event->form != Pattern::Form::Event || free == frees_.end()) return nullptr;
-        PatternPtr all = make_repeat(
-            spelled(event->events | inserted_->events, free->second & sight_.visible), 0,
-            kUnbounded);
+        PatternPtr all =
+            make_repeat(spelled(event->events | inserted_->events, free->second & sight_.visible),
+                        0, kUnbounded);
         if (node.min == 0) return all;
         return make_sequence({body.parts[0], body.parts[1], std::move(all)});
     }
@@ -209,6 +259,7 @@ class Speaker {
     const CommonAlphabet& alphabet_;
     const Sight& sight_;
     const Speller& speller_;
+    bool keeps_tests_;
     const Limits& limits_;
     std::optional<Speller::Spelled> inserted_;
     std::unordered_map<const Pattern*, EventUse> uses_;
@@ -224,14 +275,13 @@ class Translator {
           from_(from),
           to_(to),
           limits_(options.limits),
-          alphabet_(names_of(std::vector<const Reading*>{&source}, {&from, &to}),
-                    options.without),
+          alphabet_(names_of(std::vector<const Reading*>{&source}, {&from, &to}), options.without),
           sees_from_(from, alphabet_),
           sees_to_(to, alphabet_),
           speller_(to, alphabet_, sees_to_, label_sets_of(source, from)),
           pattern_(with_events_joined(*resolve(*source.pattern, alphabet_, sees_from_))),
-          paths_(minimise(paths_of(*pattern_, alphabet_, sees_from_.invisible, limits_),
-                          limits_)) {}
+          paths_(
+              minimise(paths_of(*pattern_, alphabet_, sees_from_.invisible, limits_), limits_)) {}
 
     Translation run() {
         Translation out;
@@ -246,8 +296,7 @@ class Translator {
         else if (out.text.empty())
             out.notes.emplace_back("no expression of " + std::string(to_.title) +
                                    " takes any of its paths");
-        out.exact =
-            !out.text.empty() && !out.lost && !out.added && out.lost_prefixes.empty();
+        out.exact = !out.text.empty() && !out.lost && !out.added && out.lost_prefixes.empty();
         if (!out.exact && !out.text.empty() && out.lost_prefixes.empty())
             add_assumptions(best.paths, out);
         add_facts(from_, source_text_, out);
@@ -267,10 +316,11 @@ class Translator {
     };
 
     /// Spells a pattern and reads it back.
-    Candidate candidate(const Pattern& pattern, const SymbolSet& passed_over) {
-        Speaker speaker(alphabet_, sees_to_, speller_, passed_over & sees_to_.visible, limits_);
+    Candidate candidate(const Pattern& pattern, const SymbolSet& passed_over, bool keeps_tests) {
+        Speaker speaker(alphabet_, sees_to_, speller_, passed_over & sees_to_.visible, keeps_tests,
+                        limits_);
         Candidate out;
-        out.text = write(*speaker.speak(pattern, passed_over), to_.repeats);
+        out.text = write(*with_plus(*speaker.speak(pattern, passed_over)), to_.repeats);
         Diagnostics diagnostics;
         PatternPtr read = make_nothing();
         if (!out.text.empty()) {
@@ -288,13 +338,13 @@ class Translator {
     Candidate choose() {
         const bool keeps_shape = !has_boolean(*pattern_);
         std::optional<Candidate> own;
-        if (keeps_shape) own = candidate(*pattern_, sees_from_.invisible);
-        if (own && own->exact) return *std::move(own);
+        if (keeps_shape) own = candidate(*pattern_, sees_from_.invisible, true);
+        if (own && (own->exact || paths_.n_states() > kMaxEliminatedStates))
+            return *std::move(own);
         try {
-            const PatternPtr pattern =
-                with_events_joined(*to_pattern(paths_, alphabet_, limits_));
+            const PatternPtr pattern = with_events_joined(*to_pattern(paths_, alphabet_, limits_));
             if (own && count_nodes(*pattern) > kMaxEliminatedNodes) return *std::move(own);
-            Candidate other = candidate(*pattern, alphabet_.none());
+            Candidate other = candidate(*pattern, alphabet_.none(), false);
             const bool nearer =
                 !own || other.exact ||
                 (path_outside(own->paths, other.paths, alphabet_, alphabet_.all(), limits_) &&
@@ -318,15 +368,28 @@ class Translator {
         if (!out.text.empty()) out.text = before + out.text;
     }
 
+    /// The fewest things that a scene must do without for the translation to be exact.
     void add_assumptions(const Automaton& paths, Translation& out) const {
-        for (std::size_t i = 0; i < kWithouts; ++i) {
-            const auto without = static_cast<Without>(i);
-            const SymbolSet events = alphabet_.all_without(without);
-            // Leaving everything out proves nothing.
-            if (!path_outside(paths_, nothing(), alphabet_, events, limits_)) continue;
-            if (!path_outside(paths_, paths, alphabet_, events, limits_) &&
-                !path_outside(paths, paths_, alphabet_, events, limits_))
-                out.exact_without.push_back(without);
+        const Automaton none = nothing();
+        std::vector<unsigned> choices;
+        for (unsigned bits = 1; bits < 1U << kWithouts; ++bits)
+            choices.push_back(bits);
+        std::ranges::stable_sort(choices, {}, [](unsigned bits) { return std::popcount(bits); });
+        for (const unsigned bits : choices) {
+            SymbolSet events = alphabet_.all();
+            std::vector<Without> without;
+            for (std::size_t i = 0; i < kWithouts; ++i) {
+                if ((bits >> i & 1U) == 0) continue;
+                without.push_back(static_cast<Without>(i));
+                events &= alphabet_.all_without(without.back());
+            }
+            if (path_outside(paths_, paths, alphabet_, events, limits_) ||
+                path_outside(paths, paths_, alphabet_, events, limits_))
+                continue;
+            // Leaving all of its paths out proves nothing.
+            if (path_outside(paths_, none, alphabet_, events, limits_))
+                out.exact_without = std::move(without);
+            if (!out.exact_without.empty()) return;
         }
     }
     [[nodiscard]] Automaton nothing() const {
@@ -351,9 +414,9 @@ class Translator {
         for (Symbol s = 0; s < alphabet_.size(); ++s)
             if (sees_from_.invisible.has(s)) used |= Fact::bit(alphabet_.event(s).kind);
         for (const Fact& fact : dialect.facts) {
-            const bool matters =
-                !fact.verified && (fact.mark.empty() || text.find(fact.mark) != text.npos) &&
-                (fact.kinds == 0 || (fact.kinds & used) != 0);
+            const bool matters = !fact.verified &&
+                                 (fact.mark.empty() || text.find(fact.mark) != text.npos) &&
+                                 (fact.kinds == 0 || (fact.kinds & used) != 0);
             if (!matters) continue;
             std::string line = std::string(dialect.name) + ": " + std::string(fact.text);
             if (std::ranges::find(out.unverified, line) == out.unverified.end())
@@ -428,13 +491,13 @@ std::optional<AsRead> read_as(std::string_view text, const SourceSpan& base,
     const SourceSpan where = base.known() ? base : stand_alone(text);
     const Reading reading = read_text(text, where, dialect, diagnostics);
     if (!reading.pattern) return std::nullopt;
-    const auto respelled = [&](const Reading& source) {
-        Translator translator(source, dialect, dialect, {{}, limits});
+    const auto respelled = [&](const Reading& source, const Dialect& to) {
+        Translator translator(source, dialect, to, {{}, limits});
         return translator.run();
     };
     try {
         AsRead out;
-        Translation as_read = respelled(reading);
+        Translation as_read = respelled(reading, dialect);
         out.text = as_read.text;
         out.notes = std::move(as_read.notes);
         if (dialect.read_as_meant == nullptr) {
@@ -444,8 +507,22 @@ std::optional<AsRead> read_as(std::string_view text, const SourceSpan& base,
         Diagnostics ignored;
         const Reading meant = dialect.read_as_meant(text, where, ignored);
         if (!meant.pattern || ignored.has_errors()) return out;
-        out.meant = respelled(meant).text;
         compare_readings(reading, meant, dialect, limits, out);
+        if (!out.differs) {
+            out.meant = out.text;
+            return out;
+        }
+        const Translation other = respelled(meant, dialect);
+        if (other.exact) {
+            out.meant = other.text;
+            return out;
+        }
+        out.notes.push_back("what is meant cannot be written for " + std::string(dialect.title));
+        if (dialect.variant == nullptr) return out;
+        const Translation better = respelled(meant, dialect.variant());
+        if (better.exact)
+            out.notes.push_back("for " + std::string(dialect.variant().name) + " it is " +
+                                better.text);
         return out;
     } catch (const OverBudget& over) {
         diagnostics.add(over.error("the translation", where));

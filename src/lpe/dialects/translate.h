@@ -28,10 +28,10 @@ struct TranslateOptions {
 struct Translation {
     std::string text;    ///< in the other dialect; if it is not exact, the nearest that takes all
     bool exact = false;  ///< the same set of common paths; false if there is no text
-    std::optional<CommonPath> lost{};   ///< a shortest path that is no longer taken
-    std::optional<CommonPath> added{};  ///< a shortest path that is taken now and was not
+    std::optional<CommonPath> lost{};          ///< a shortest path that is no longer taken
+    std::optional<CommonPath> added{};         ///< a shortest path that is taken now and was not
     std::vector<std::string> lost_prefixes{};  ///< prefixes that the other dialect does not have
-    std::vector<Without> exact_without{};      ///< it is exact for scenes without one of these
+    std::vector<Without> exact_without{};      ///< it is exact for scenes without all of these
     std::vector<std::string> notes{};
     std::vector<std::string> unverified{};  ///< what it relies on that is only inferred
 };

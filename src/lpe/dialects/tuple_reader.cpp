@@ -58,9 +58,8 @@ struct Tuple {
         if (options->label_places > 0)
             named = place < hit.labels.size() && names_label(choice, hit.labels[place]);
         else
-            named = std::ranges::any_of(hit.labels, [&](const std::string& label) {
-                return names_label(choice, label);
-            });
+            named = std::ranges::any_of(
+                hit.labels, [&](const std::string& label) { return names_label(choice, label); });
         return choice.holds(named, true);
     }
 };
@@ -147,8 +146,8 @@ class TupleParser {
         const char c = in_.take();
         if (c == '*') return make_repeat(std::move(item), 0, Pattern::kUnbounded);
         if (c == '+') return make_repeat(std::move(item), 1, Pattern::kUnbounded);
-        const bool known = options_.repeats == Repeats::All ||
-                           (c == '{' && options_.repeats == Repeats::Counts);
+        const bool known =
+            options_.repeats == Repeats::All || (c == '{' && options_.repeats == Repeats::Counts);
         std::optional<std::uint32_t> min, max;
         if (c == '{') {
             min = parse_number();
@@ -332,8 +331,7 @@ class TupleParser {
             tuple.lobe = *std::move(lobe);
         } else if (in_.skip_blanks(), in_.peek_is_one_of("'[") && !options_.any_place) {
             in_.lint(Code::LpeMisread, who() + " looks for the lobe in the place of this label",
-                     in_.position(), in_.position() + 1,
-                     "put a . before it: <L.'key'>");
+                     in_.position(), in_.position() + 1, "put a . before it: <L.'key'>");
             tuple.lobe = {false, false, {"?"}};
         }
         const std::size_t n_places = options_.label_places;
@@ -354,7 +352,8 @@ class TupleParser {
 
     void report_place(std::size_t begin, const std::string& what) {
         if (in_.peek() == '>' || in_.at_end()) return;
-        in_.error(Code::LpeEvent, "no " + what + " stands first in <..>", begin, in_.position() + 1,
+        in_.error(Code::LpeEvent, "no " + what + " stands first in <..>", begin,
+                  in_.position() + 1,
                   "the order is event, lobe, labels, and . fills a place: <.D>");
     }
 
@@ -367,8 +366,9 @@ class TupleParser {
             return;
         }
         if (in_.peek_is_one_of(options_.events) || in_.peek_is_one_of(options_.lobes))
-            in_.error(Code::LpeEvent, in_quotes(in_.text(in_.position(), in_.position() + 1)) +
-                                          " stands in the wrong place",
+            in_.error(Code::LpeEvent,
+                      in_quotes(in_.text(in_.position(), in_.position() + 1)) +
+                          " stands in the wrong place",
                       in_.position(), in_.position() + 1, "the order is event, lobe, labels");
         else
             reject();
@@ -393,9 +393,8 @@ class TupleParser {
              in_.skip_blanks()) {
             const std::size_t at = in_.position();
             if (in_.peek_is_one_of("|()*+?{")) {
-                in_.error(Code::LpeCharacter,
-                          in_quotes(in_.text(at, at + 1)) + " inside [..]", at, at + 1,
-                          "single events only; for longer alternatives write ((..)|(..))");
+                in_.error(Code::LpeCharacter, in_quotes(in_.text(at, at + 1)) + " inside [..]", at,
+                          at + 1, "single events only; for longer alternatives write ((..)|(..))");
                 in_.take();
                 good = false;
                 continue;

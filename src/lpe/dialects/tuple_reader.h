@@ -14,16 +14,16 @@
 namespace lightsieve::lpe::dialects {
 
 struct TupleOptions {
-    std::string_view renderer;         ///< for messages
-    std::string_view events;           ///< letters of events
-    std::string_view lobes;            ///< letters of lobes
-    std::string_view numbered{};       ///< letters that a number may follow: D2
-    std::uint32_t max_number = 0;      ///< largest such number
-    std::string_view foreign{};        ///< letters that only this dialect has, always numbered
-    bool tight = true;                 ///< `|` joins one item on each side
+    std::string_view renderer;     ///< for messages
+    std::string_view events;       ///< letters of events
+    std::string_view lobes;        ///< letters of lobes
+    std::string_view numbered{};   ///< letters that a number may follow: D2
+    std::uint32_t max_number = 0;  ///< largest such number
+    std::string_view foreign{};    ///< letters that only this dialect has, always numbered
+    bool tight = true;             ///< `|` joins one item on each side
     Repeats repeats = Repeats::StarAndPlus;
-    std::size_t label_places = 0;      ///< places for labels in <..>; 0: labels are a set
-    bool any_place = false;            ///< <D> and <L'key'> are understood
+    std::size_t label_places = 0;  ///< places for labels in <..>; 0: labels are a set
+    bool any_place = false;        ///< <D> and <L'key'> are understood
     bool (*any_event)(const Hit& hit) = nullptr;  ///< what `.` takes for an event
     bool (*any_lobe)(const Hit& hit) = nullptr;   ///< what a missing lobe or `.` takes
     /// What to do about a character that means nothing; "" if nothing special is known.
