@@ -145,12 +145,17 @@ def print_diagnostics(items: Iterable[Diagnostic]) -> None:
         for item in items:
             say(item.rendered)
         return
+    # Lines are fitted here, not wrapped by rich, so that carets stay under what they point at.
+    width = shutil.get_terminal_size().columns
+    if os.environ.get("NO_COLOR"):
+        for item in items:
+            say(fitted(item.rendered, width))
+        return
     from rich.console import Console
 
-    # rich obeys NO_COLOR; lines are fitted here, so that carets stay under what they point at.
     console = Console(stderr=True, soft_wrap=True, highlight=False)
     for item in items:
-        console.print(_coloured(item, fitted(item.rendered, console.width)))
+        console.print(_coloured(item, fitted(item.rendered, width)))
 
 
 _QUOTED = re.compile(r" *\d+ \| ")

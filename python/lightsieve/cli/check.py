@@ -122,11 +122,12 @@ def _survey_rows(survey: Survey) -> list[tuple[str, str]]:
 
 
 def _missing_rows(missing: Missing) -> list[tuple[str, str]]:
-    need = missing.expression
+    need = f"an AOV {missing.expression}"
     if missing.builtins:
-        need = f"{_output.listed(missing.builtins)}, or one AOV {need}"
+        need = f"{_output.listed(missing.builtins)}, or one AOV {missing.expression}"
     texts = [
-        f"RGBA = {' + '.join(missing.parts)} + ... needs {need}",
+        need,
+        f"to add up to RGBA with {_output.listed(missing.parts)}",
         f"so far {missing.example} is in none: {missing.example.words}",
     ]
     for one in missing.left_out:
