@@ -160,3 +160,69 @@ def error_codes() -> list[tuple[str, str]]:
 
 def additive_sets(table: str = 'reference') -> list[list[str]]:
     """The sets of built-ins that add up to the beauty."""
+
+class TranslationResult:
+    """What a translation came to."""
+
+    @property
+    def text(self) -> str: ...
+
+    @property
+    def exact(self) -> bool: ...
+
+    @property
+    def lost(self) -> tuple[str, str] | None: ...
+
+    @property
+    def added(self) -> tuple[str, str] | None: ...
+
+    @property
+    def lost_prefixes(self) -> list[str]: ...
+
+    @property
+    def exact_without(self) -> list[str]: ...
+
+    @property
+    def notes(self) -> list[str]: ...
+
+    @property
+    def unverified(self) -> list[str]: ...
+
+    @property
+    def lints(self) -> tuple[lightsieve.errors.Diagnostic, ...]: ...
+
+class ReadingResult:
+    """What a renderer reads a text as."""
+
+    @property
+    def text(self) -> str: ...
+
+    @property
+    def meant(self) -> str: ...
+
+    @property
+    def differs(self) -> bool: ...
+
+    @property
+    def missed(self) -> tuple[str, str] | None: ...
+
+    @property
+    def extra(self) -> tuple[str, str] | None: ...
+
+    @property
+    def notes(self) -> list[str]: ...
+
+    @property
+    def lints(self) -> tuple[lightsieve.errors.Diagnostic, ...]: ...
+
+def translate_dialect(text: str, source: str, target: str, without: Sequence[str]) -> TranslationResult:
+    """Translates an expression from one renderer's dialect to another's."""
+
+def read_dialect(text: str, dialect: str) -> ReadingResult:
+    """What a renderer does with a text, and what was most likely meant."""
+
+def dialects() -> list[tuple[str, str, list[tuple[str, bool]], list[str]]]:
+    """Name, title, facts (text, verified) and prefixes of every dialect."""
+
+def scene_properties() -> list[tuple[str, str]]:
+    """What a scene may be without, by name, with its meaning."""

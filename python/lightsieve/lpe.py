@@ -24,6 +24,17 @@ from html import escape
 from typing import Literal, NamedTuple, cast
 
 from lightsieve import _lpe
+from lightsieve.dialects import (
+    Dialect,
+    DialectName,
+    DialectReading,
+    SceneProperty,
+    Translation,
+    dialects,
+    read_as,
+    scene_properties,
+    translate,
+)
 from lightsieve.errors import Diagnostic
 from lightsieve.graphs import Graph
 
@@ -31,6 +42,9 @@ __all__ = [
     "Builtin",
     "Comparison",
     "Context",
+    "Dialect",
+    "DialectName",
+    "DialectReading",
     "Explanation",
     "Expression",
     "Fault",
@@ -40,18 +54,24 @@ __all__ = [
     "Path",
     "Related",
     "Relation",
+    "SceneProperty",
     "Table",
+    "Translation",
     "additive_sets",
     "builtins",
     "compare",
+    "dialects",
     "explain",
     "graph",
     "match",
     "parse",
     "partition",
     "path",
+    "read_as",
     "resolve",
     "rest",
+    "scene_properties",
+    "translate",
 ]
 
 Table = Literal["reference", "arnold7"]
