@@ -1,27 +1,38 @@
 // Which events the scene can make, and the engine's numbers for them. See compiler.h.
+#include <algorithm>
+
 #include "render/compiler.h"
 #include "render/faults.h"
 
 namespace lightsieve {
 namespace {
 
-Event event_of(const LobeInfo& lobe) {
+Event event_of(const LobeInfo& lobe, const std::string& object_label) {
     Event event{lobe.kind, lobe.lobe, {}};
+    if (!object_label.empty()) event.labels.push_back(object_label);
     if (active_fault() == Fault::TransmissionAsDiffuse && lobe.kind == EventKind::Transmission)
         event.lobe = EventLobe::Diffuse;
     if (active_fault() == Fault::CoatAsSpecular && lobe.label == "coat") return event;
-    if (!lobe.label.empty()) event.labels.push_back(lobe.label);
+    if (!lobe.label.empty() && lobe.label != object_label) event.labels.push_back(lobe.label);
+    std::sort(event.labels.begin(), event.labels.end());
     return event;
 }
 
 /// A shader without closures shows its colour unlit: emission.
-const Event kUnlit{EventKind::Object, EventLobe::None, {}};
+const LobeInfo kUnlit{0, EventKind::Object, EventLobe::None, "", ""};
 
 Event light_event(const SceneLight& light) {
     return {EventKind::Light, EventLobe::None, {light.group}};
 }
 Event background_event(const SceneLight& light) {
     return {EventKind::Background, EventLobe::None, {light.group}};
+}
+
+/// A switch of a shader, or `missing` if it has none of that name.
+bool switch_of(const ShaderProgram& shader, const char* name, bool missing) {
+    const ParamInfo* info = shader.type().find(name);
+    if (info == nullptr || info->type != ParamType::Bool) return missing;
+    return *reinterpret_cast<const bool*>(shader.block() + info->offset);
 }
 
 }  // namespace
@@ -36,8 +47,9 @@ std::uint32_t Compiler::event_index(const Event& event) {
 void Compiler::gather_events() {
     for (const ShaderProgram* shader : surface_shaders_) {
         for (const LobeInfo& lobe : shader->type().lobes)
-            event_index(event_of(lobe));
-        if (shader->type().eval_closure == nullptr) event_index(kUnlit);
+            event_index(event_of(lobe, shader->object_label));
+        if (shader->type().eval_closure == nullptr)
+            event_index(event_of(kUnlit, shader->object_label));
     }
     for (const SceneLight& light : scene_->lights) {
         event_index(light_event(light));
@@ -62,13 +74,17 @@ void Compiler::fill_records() {
     for (ShaderProgram* shader : surface_shaders_) {
         shader->records.clear();
         for (const LobeInfo& lobe : shader->type().lobes)
-            fill(shader->records.emplace_back(), event_of(lobe));
-        if (const ParamInfo* exit = shader->type().find("exit_to_background");
-            exit != nullptr && exit->type == ParamType::Bool)
-            for (LobeRecord& record : shader->records)
-                record.exit_to_background =
-                    *reinterpret_cast<const bool*>(shader->block() + exit->offset);
-        if (shader->type().eval_closure == nullptr) fill(shader->records.emplace_back(), kUnlit);
+            fill(shader->records.emplace_back(), event_of(lobe, shader->object_label));
+        const bool exits = switch_of(*shader, "exit_to_background", false),
+                   thin = switch_of(*shader, "thin_walled", true);
+        for (LobeRecord& record : shader->records) {
+            record.exit_to_background = exits;
+            // Where there is no other side to pass to, TD is light that scattered below the surface.
+            record.subsurface = !thin && record.kind == EventKind::Transmission &&
+                                record.lobe == EventLobe::Diffuse;
+        }
+        if (shader->type().eval_closure == nullptr)
+            fill(shader->records.emplace_back(), event_of(kUnlit, shader->object_label));
     }
     for (SceneLight& light : scene_->lights) {
         light.as_light = program.terminal(light_event(light));

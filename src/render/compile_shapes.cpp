@@ -196,9 +196,48 @@ std::vector<const ShaderProgram*> Compiler::shaders_of(const NodeInstance& node,
         out.push_back(program != nullptr ? program : default_shader());
     }
     if (out.empty()) out.push_back(default_shader());
+    if (const std::string label = object_label_of(node, source); !label.empty())
+        for (const ShaderProgram*& program : out)
+            program = labelled(program, label);
     for (const ShaderProgram* program : out)
         surface_shaders_.insert(const_cast<ShaderProgram*>(program));
     return out;
+}
+
+/// The user data lpe_label, which an instance takes from its source unless it has its own.
+std::string Compiler::object_label_of(const NodeInstance& node, const NodeInstance& source) {
+    const UserData* data = node.find_user_data("lpe_label");
+    if (data == nullptr) data = source.find_user_data("lpe_label");
+    if (data == nullptr || data->n == 0) return "";
+    const auto refuse = [&](const std::string& problem, std::string hint) {
+        diagnostics_.error(Code::ObjectLabel, problem, data->where, std::move(hint));
+        return std::string{};
+    };
+    if (data->type != ParamType::String || data->user_class != UserDataClass::Constant)
+        return refuse("lpe_label of \"" + node.name().str() + "\" is no label",
+                      "declare lpe_label constant STRING");
+    std::string label = data->values<Name>()[0].str();
+    if (label.find('\'') != std::string::npos)
+        return refuse("the object label \"" + label + "\" has a quote in it",
+                      "expressions write it between quotes: 'hero'");
+    const std::vector<std::string>& groups = scene_->summary.light_groups;
+    if (std::find(groups.begin(), groups.end(), label) != groups.end() || label == "default")
+        return refuse("the object label \"" + label + "\" is also a light group",
+                      "rename one of them: an expression could not tell them apart");
+    for (const char* reserved : {"coat", "sheen", "hair"})
+        if (label == reserved)
+            return refuse("the object label \"" + label + "\" is that of a lobe",
+                          "coat, sheen and hair mean lobes; choose another");
+    return label;
+}
+
+const ShaderProgram* Compiler::labelled(const ShaderProgram* program, const std::string& label) {
+    const ShaderProgram*& known = labelled_[{program, label}];
+    if (known == nullptr) {
+        scene_->shaders.push_back(program->with_label(label));
+        known = scene_->shaders.back().get();
+    }
+    return known;
 }
 
 const LightSampler* Compiler::lights_of(const NodeInstance& node) {

@@ -63,6 +63,10 @@ class Compiler {
     [[nodiscard]] const ShapeGeometry* shared_geometry(const NodeInstance& node);
     [[nodiscard]] std::vector<const ShaderProgram*> shaders_of(const NodeInstance& node,
                                                                const NodeInstance& source);
+    [[nodiscard]] std::string object_label_of(const NodeInstance& node,
+                                              const NodeInstance& source);
+    [[nodiscard]] const ShaderProgram* labelled(const ShaderProgram* program,
+                                                const std::string& label);
     [[nodiscard]] const LightSampler* lights_of(const NodeInstance& node);
     [[nodiscard]] std::vector<bool> shadow_lights_of(const NodeInstance& node);
     void resample_motion(ShapeGeometry& geometry, MotionRange range) const;
@@ -99,6 +103,7 @@ class Compiler {
     std::map<const NodeInstance*, std::uint32_t> light_index_;
     std::map<std::vector<std::uint32_t>, const LightSampler*> samplers_by_group_;
     std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
+    std::map<std::pair<const ShaderProgram*, std::string>, const ShaderProgram*> labelled_;
     std::map<Event, std::uint32_t> event_index_;
     const ShaderProgram* default_shader_ = nullptr;
 };

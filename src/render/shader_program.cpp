@@ -106,6 +106,15 @@ ShaderProgram::ShaderProgram(const NodeType& type, const std::byte* block)
     std::memcpy(block_.get(), block, type.block_size);
 }
 
+std::unique_ptr<ShaderProgram> ShaderProgram::with_label(std::string label) const {
+    auto out = std::make_unique<ShaderProgram>(*type_, block_.get());
+    out->patches_ = patches_;
+    out->may_be_transparent = may_be_transparent;
+    out->may_tint_shadows = may_tint_shadows;
+    out->object_label = std::move(label);
+    return out;
+}
+
 void ShaderProgram::patch(std::byte* copy, const ShadePoint& at) const {
     std::memcpy(copy, block_.get(), type_->block_size);
     for (const Patch& p : patches_)

@@ -36,6 +36,9 @@ class ShaderProgram {
     [[nodiscard]] std::byte* block() { return block_.get(); }
     [[nodiscard]] const std::byte* block() const { return block_.get(); }
 
+    /// The same shader for shapes that carry an object label; made after links and `prepare`.
+    [[nodiscard]] std::unique_ptr<ShaderProgram> with_label(std::string label) const;
+
     /// Result of a value shader; of a closure shader black.
     [[nodiscard]] ShaderValue value(const ShadePoint& at) const;
     /// Adds the shader's closures. A value shader is shown unlit: its colour is emission through lobe 0.
@@ -43,6 +46,8 @@ class ShaderProgram {
 
     /// Lobes with their events; filled when the scene's expressions are compiled.
     std::vector<LobeRecord> records;
+    /// Joins the labels of every scattering and emission event; empty: none.
+    std::string object_label;
     /// Whether rays may pass straight through what this shader covers.
     bool may_be_transparent = false;
     /// Whether shadow rays may pass where others are refracted (ClosureSet::transmit_shadow).
