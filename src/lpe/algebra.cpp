@@ -303,8 +303,11 @@ Comparison compare(const Expr& a, const Expr& b, const Limits& limits) {
     return compare(a, b, abstract_events(std::array{a, b}, limits), limits);
 }
 
-PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
-                                std::span<const Event> events, const Limits& limits) {
+namespace {
+
+/// Proves it with `find(exprs, wanted)`, which searches for a path.
+template <class Find>
+PartitionReport partition_by(const Expr& whole, std::span<const Expr> parts, const Find& find) {
     PartitionReport report;
     const auto keep_shortest = [&](PartitionReport::Fault fault, std::optional<Path> witness,
                                    std::size_t first = 0, std::size_t second = 0) {
@@ -316,22 +319,31 @@ PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
     for (const Expr& part : parts)
         if (part) all.parts.push_back(part);
     const Expr sum = std::make_shared<const Node>(Node{std::move(all), {}});
-    keep_shortest(PartitionReport::Fault::Lost,
-                  search({whole, sum}, events, in_first_only, limits));
+    keep_shortest(PartitionReport::Fault::Lost, find({whole, sum}, in_first_only));
     for (std::size_t i = 0; i < parts.size(); ++i)
         for (std::size_t j = i + 1; j < parts.size(); ++j)
-            keep_shortest(PartitionReport::Fault::Twice,
-                          search({parts[i], parts[j]}, events, in_both, limits), i, j);
-    keep_shortest(PartitionReport::Fault::Outside,
-                  search({sum, whole}, events, in_first_only, limits));
+            keep_shortest(PartitionReport::Fault::Twice, find({parts[i], parts[j]}, in_both), i,
+                          j);
+    keep_shortest(PartitionReport::Fault::Outside, find({sum, whole}, in_first_only));
     return report;
+}
+
+}  // namespace
+
+PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
+                                std::span<const Event> events, const Limits& limits) {
+    return partition_by(whole, parts,
+                        [&](std::initializer_list<Expr> exprs, const Wanted& wanted) {
+                            return search(exprs, events, wanted, limits);
+                        });
 }
 
 PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
                                 const Limits& limits) {
-    std::vector<Expr> all(parts.begin(), parts.end());
-    all.push_back(whole);
-    return check_partition(whole, parts, abstract_events(all, limits), limits);
+    return partition_by(whole, parts,
+                        [&](std::initializer_list<Expr> exprs, const Wanted& wanted) {
+                            return search(exprs, wanted, limits);
+                        });
 }
 
 }  // namespace lightsieve::lpe

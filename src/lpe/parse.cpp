@@ -375,7 +375,10 @@ Expr Parser::parse_reference() {
 void Parser::reject_empty(bool whole, bool in_parentheses) {
     const std::size_t begin = in_.position();
     const std::size_t end = begin + (in_.at_end() ? 0 : 1);
-    if (!whole)
+    if (in_.peek_is_one_of("&-"))
+        in_.error(Code::LpeOperator, "nothing before " + in_quotes(in_.text(begin, end)), begin,
+                  end, "both sides are expressions: C.* - CD.*");
+    else if (!whole)
         in_.error(Code::LpeEmpty, "nothing on one side of \"|\"", begin, end,
                   "a part that may be missing is written (..)?");
     else if (in_parentheses)
