@@ -228,6 +228,7 @@ bool Renderer::take_samples(Worker& worker, const CameraSampler& camera, const B
                                 worker.sample);
         if (worker.integrator.counts.dropped != dropped_before)
             note_dropped(worker, rect.x + x, rect.y + y, i);
+        remove_exposure(sample, worker.sample.probes);
         camera.weights(sample, worker.weights);
         worker.film.add(x, y, worker.sample, sample_clamp_factor(scene_, worker.sample.beauty),
                         sample.offset, worker.weights);
