@@ -327,8 +327,10 @@ class Describer {
         if (const auto* repeat = std::get_if<Repeat>(&node.form))
             return (repeat->min == 0 ? places : 0U) | often(*repeat, places, is_forward);
         if (std::holds_alternative<Complement>(node.form)) {
-            if (is_forward) return (places & kStart) != 0 ? kEnded : 0U;
-            return (places & kEnded) != 0 ? kStart : 0U;
+            // As C.*: from the camera to anywhere.
+            constexpr Places kBegun = kUnderWay | kEnded;
+            if (is_forward) return (places & kStart) != 0 ? kBegun : 0U;
+            return (places & kBegun) != 0 ? kStart : 0U;
         }
         const std::span<const Expr> parts = children(node);
         if (std::holds_alternative<Difference>(node.form))

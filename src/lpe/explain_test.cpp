@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "lpe/builtins.h"
 #include "lpe/match.h"
+#include "lpe/print.h"
 #include "lpe/testing/generate.h"
 
 namespace lightsieve::lpe {
@@ -110,6 +112,28 @@ TEST(Explain, WhatTakesNothingIsSaidToTakeNothing) {
 
 TEST(Explain, WhatIsOverBudgetIsALimitError) {
     EXPECT_THROW((void)explain(must_parse("C.*D.{20}L")), InputError);
+}
+
+TEST(Explain, WhatIsSaidOfRandomExpressionsHolds) {
+    std::mt19937 random(13);
+    const std::vector<NamedExpr> others = all_builtins();
+    std::size_t n_misses = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Expr expr = testing::random_light_expression(random, 8);
+        const Explanation told = explain(expr, {.others = others});
+        EXPECT_EQ(told.taken.empty(), !shortest_path(expr).has_value()) << print(expr);
+        for (const TakenPath& taken : told.taken)
+            EXPECT_TRUE(match(expr, taken.path)) << print(expr) << print_path(taken.path);
+        for (const NearMiss& miss : told.near_misses)
+            EXPECT_FALSE(match(expr, miss.path)) << print(expr) << print_path(miss.path);
+        n_misses += told.near_misses.size();
+        for (const RelatedAov& aov : told.related) {
+            const auto other = std::ranges::find(others, aov.name, &NamedExpr::name);
+            EXPECT_EQ(aov.relation, compare(expr, other->expr).relation)
+                << print(expr) << " " << aov.name;
+        }
+    }
+    EXPECT_GT(n_misses, std::size_t{150});
 }
 
 }  // namespace

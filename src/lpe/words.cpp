@@ -388,30 +388,38 @@ std::string EventNames::scatter_text(const Group& group) const {
         Phrase{bits({kTS}), "refracted"},
         Phrase{bits({kV}), "scattered in a volume"},
     };
-    const Labels& labels = group.labels;
     const std::vector<std::string_view> verbs = cover(group.kinds & kScatter, kVerbs);
-    std::string out = join_words(Texts(verbs.begin(), verbs.end()), "or");
-    const auto only_known = [](const Texts& of) {
-        return std::ranges::all_of(
-            of, [](const std::string& label) { return !known_lobe(label).empty(); });
-    };
-    const bool named_lobe = group.kinds == bits({kRS}) && only_known(labels.with);
+    const std::string by = by_text(group.labels);
+    const bool known_lobe_only = group.labels.form == Labels::Form::One &&
+                                 std::ranges::all_of(group.labels.with, [](const auto& label) {
+                                     return !known_lobe(label).empty();
+                                 });
+    Texts out;
+    for (const std::string_view verb : verbs) {
+        const bool is_plain = group.kinds == bits({kRS}) && known_lobe_only;
+        out.push_back((is_plain ? "reflected" : std::string(verb)) + by);
+    }
+    return join_words(out, "or");
+}
+
+/// " by the coat", " but not by hair": what of a kind is meant; empty for all of it.
+std::string EventNames::by_text(const Labels& labels) {
     switch (labels.form) {
-        case Labels::Form::Any: return out;
-        case Labels::Form::One:
-            return (named_lobe ? "reflected" : out) + " by " + labelled(labels.with, "or");
-        case Labels::Form::All: return out + " by " + labelled(labels.with, "and");
-        case Labels::Form::None: return out + " by something without a label";
-        case Labels::Form::Except: return out + " but not by " + labelled(labels.without, "or");
+        case Labels::Form::Any: return "";
+        case Labels::Form::One: return " by " + labelled(labels.with, "or");
+        case Labels::Form::All: return " by " + labelled(labels.with, "and");
+        case Labels::Form::None: return " by something without a label";
+        case Labels::Form::Except: return " but not by " + labelled(labels.without, "or");
         case Labels::Form::OneExcept:
-            return out + " by " + labelled(labels.with, "or") + " but not by " +
+            return " by " + labelled(labels.with, "or") + " but not by " +
                    labelled(labels.without, "or");
         case Labels::Form::Listed: break;
     }
     Texts sets;
     for (const Texts& set : labels.listed)
-        sets.push_back(set.empty() ? "something without a label" : labelled(set, "and"));
-    return out + " by " + join_words(sets, "or");
+        sets.push_back(set.empty() ? "something without a label"
+                                   : labelled(set, "and") + " alone");
+    return " by " + join_words(sets, "or");
 }
 
 std::string EventNames::end_text(const Group& group) const {
@@ -426,35 +434,62 @@ std::string EventNames::end_text(const Group& group) const {
         return join_words(Texts(places.begin(), places.end()), "or");
     }
     Texts places;
-    const auto add = [&](Kind kind, const std::string& place, const std::string& what) {
-        if ((group.kinds & bits({kind})) == 0) return;
-        const auto named = [&](const Texts& of, const char* none, const char* some) {
-            Texts names;
-            for (const std::string& label : of)
-                names.push_back(kind != kO && label == kDefaultGroup ? std::string(none)
-                                                                     : some + label);
-            return join_words(names, "or");
-        };
-        const char* some = kind == kO ? "" : "group ";
-        std::string text = place;
-        if (labels.form == Labels::Form::None) text += " without a " + what;
-        if (!labels.with.empty())
-            text += (kind == kO ? " labelled " : " of ") + named(labels.with, "no group", some);
-        if (!labels.without.empty())
-            text += (labels.without == Texts{std::string(kDefaultGroup)} && kind != kO)
-                        ? " of some group"
-                        : " of any " + what + " but " + named(labels.without, "none", "");
-        Texts sets;
-        for (const Texts& set : labels.listed)
-            sets.push_back(set.empty() ? "no " + what : named(set, "no group", some));
-        if (!sets.empty()) text += (kind == kO ? " labelled " : " of ") + join_words(sets, "or");
-        places.push_back(text);
-    };
-    add(kL, "at a light", "group");
-    add(kO, "at an emission", "label");
-    add(kB, labels.with.empty() ? "in the background" : "in the background, a skydome", "group");
+    if ((group.kinds & bits({kL})) != 0) places.push_back("at a light" + of_group_text(labels));
+    if ((group.kinds & bits({kO})) != 0)
+        places.push_back("at an emission" + emission_text(labels));
+    if ((group.kinds & bits({kB})) != 0)
+        places.push_back(labels.form == Labels::Form::None
+                             ? "in the background without a skydome"
+                             : "in the background, a skydome" + of_group_text(labels));
     if ((group.kinds & bits({kA})) != 0) places.emplace_back("as a probe of the albedo");
     return join_words(places, "or");
+}
+
+/// " labelled "fire"", " not labelled "fire"".
+std::string EventNames::emission_text(const Labels& labels) {
+    const auto quoted = [](const Texts& of, std::string_view word) {
+        Texts out;
+        for (const std::string& label : of)
+            out.push_back(in_quotes(label));
+        return join_words(out, word);
+    };
+    switch (labels.form) {
+        case Labels::Form::Any: return "";
+        case Labels::Form::One: return " labelled " + quoted(labels.with, "or");
+        case Labels::Form::All: return " labelled " + quoted(labels.with, "and");
+        case Labels::Form::None: return " without a label";
+        case Labels::Form::Except: return " not labelled " + quoted(labels.without, "or");
+        case Labels::Form::OneExcept:
+            return " labelled " + quoted(labels.with, "or") + " but not " +
+                   quoted(labels.without, "or");
+        case Labels::Form::Listed: break;
+    }
+    Texts sets;
+    for (const Texts& set : labels.listed)
+        sets.push_back(set.empty() ? "without a label"
+                                   : "labelled " + quoted(set, "and") + " alone");
+    return " " + join_words(sets, "or");
+}
+
+/// " of group key", " of any group but key": of lights, each of which is in one group.
+std::string EventNames::of_group_text(const Labels& labels) const {
+    const auto names = [&](const Texts& of) {
+        Texts out;
+        for (const std::string& group : of)
+            out.push_back(group == other_group_ ? "another group" : group_name(group));
+        return out;
+    };
+    if (labels.form == Labels::Form::Except && labels.without == Texts{std::string(kDefaultGroup)})
+        return " of some group";
+    if (labels.form == Labels::Form::Except)
+        return " but not of " + join_words(names(labels.without), "or");
+    Texts groups = names(labels.with);
+    for (const Texts& set : labels.listed)
+        for (const std::string& name : set.empty() ? Texts{"no skydome at all"} : names(set))
+            groups.push_back(name);
+    std::string out = " of " + join_words(groups, "or");
+    if (!labels.without.empty()) out += " but not of " + join_words(names(labels.without), "or");
+    return out;
 }
 
 std::string EventNames::label(const EventSet& set) const {

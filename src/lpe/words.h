@@ -97,7 +97,10 @@ class EventNames {
                                                       std::span<const Phrase> phrases) const;
     [[nodiscard]] std::string label_text(const Group& group) const;
     [[nodiscard]] std::string scatter_text(const Group& group) const;
+    [[nodiscard]] static std::string by_text(const Labels& labels);
     [[nodiscard]] std::string end_text(const Group& group) const;
+    [[nodiscard]] static std::string emission_text(const Labels& labels);
+    [[nodiscard]] std::string of_group_text(const Labels& labels) const;
 
     std::vector<Event> events_;
     std::array<std::vector<std::size_t>, kKinds> of_kind_;  ///< indices into events_

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <random>
+
+#include "lpe/algebra.h"
 #include "lpe/builtins.h"
 #include "lpe/describe.h"
 #include "lpe/predicate.h"
+#include "lpe/print.h"
 #include "lpe/testing/generate.h"
 
 namespace lightsieve::lpe {
@@ -66,7 +71,7 @@ TEST(Words, ExpressionsAreToldClauseByClause) {
         {"C.*<L.'key'>",
          "paths that leave the camera, are scattered zero or more times, and end at a light of "
          "group key"},
-        {"C<L.[^'key']>", "paths that leave the camera and end at a light of any group but key"},
+        {"C<L.[^'key']>", "paths that leave the camera and end at a light but not of group key"},
         {"C<L.[^'default']>", "paths that leave the camera and end at a light of some group"},
         {"C<L.['key''rim']>",
          "paths that leave the camera and end at a light of group key or group rim"},
@@ -174,6 +179,48 @@ TEST(Words, EveryBuiltinHasWords) {
         const std::string words = expression_in_words(expr, EventNames(std::span(&expr, 1)));
         EXPECT_TRUE(words.starts_with("paths that leave the camera")) << row.name << ": " << words;
         EXPECT_EQ(words.find('`'), std::string::npos) << row.name;
+    }
+}
+
+TEST(EventNames, DifferentSetsHaveDifferentNames) {
+    const std::vector<Expr> exprs{must_parse("<RS'coat'>"), must_parse("'hero'"),
+                                  must_parse("<L.'key'>"), must_parse("<L.'default'>")};
+    const EventNames names{std::span<const Expr>(exprs)};
+    std::map<std::string, EventSet> by_label, by_doings;
+    const auto check = [](std::map<std::string, EventSet>& seen, const std::string& text,
+                          const EventSet& set) {
+        const auto [entry, is_new] = seen.try_emplace(text, set);
+        EXPECT_TRUE(is_new || entry->second == set) << text;
+    };
+    // Sets of whole kinds and of labels within a kind, as tests of events make them, and any.
+    std::mt19937 random(7);
+    for (int i = 0; i < 20'000; ++i) {
+        EventSet set(names.events().size());
+        const auto kinds = random(), labels = random();
+        for (std::size_t e = 0; e < set.size(); ++e) {
+            const Event& event = names.events()[e];
+            const auto kind =
+                static_cast<unsigned>(event.kind) * 3 + static_cast<unsigned>(event.lobe);
+            set[e] = (kinds >> (kind % 32) & 1U) != 0;
+            if (i % 3 == 1 && !event.labels.empty())
+                set[e] = set[e] && (labels >> (event.labels[0].size() % 32) & 1U) != 0;
+            if (i % 3 == 2) set[e] = set[e] && (random() & 1U) != 0;
+        }
+        check(by_label, names.label(set), set);
+        check(by_doings, names.doings(set), set);
+    }
+    EXPECT_GT(by_label.size(), std::size_t{5'000});
+}
+
+TEST(Words, RandomExpressionsAreToldWithoutEnd) {
+    std::mt19937 random(11);
+    for (int i = 0; i < 2'000; ++i) {
+        const Expr expr = i % 2 == 0 ? testing::random_light_expression(random, 12)
+                                     : testing::random_extended_expression(random, 12);
+        const std::string words = expression_in_words(expr, EventNames(std::span(&expr, 1)));
+        EXPECT_FALSE(words.empty());
+        EXPECT_LT(words.size(), std::size_t{30'000});
+        EXPECT_TRUE(words != "no path" || !shortest_path(expr)) << print(expr);
     }
 }
 
