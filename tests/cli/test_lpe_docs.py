@@ -15,7 +15,7 @@ import pytest
 from tests.conftest import ROOT, Run
 
 SCENES = ROOT / "examples/aovs"
-PAGES = ["README.md", "docs/aov-setups.md", "docs/proofs.md"]
+PAGES = ["README.md", "docs/aov-setups.md", "docs/dialects.md", "docs/proofs.md"]
 
 
 def is_ours(line: str) -> bool:

@@ -142,9 +142,9 @@ def _report(result: Translation, text: str, source: str, target: str, json: bool
 
         meanings = lpe.scene_properties()
         _output.print_item(
-            "exact if",
-            _output.listed([meanings[name] for name in result.exact_without]),
+            "exact",
             "--without " + " --without ".join(result.exact_without),
+            "if " + _output.listed([meanings[name] for name in result.exact_without]),
         )
     _print_notes(result.notes, result.unverified)
 

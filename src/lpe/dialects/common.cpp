@@ -51,31 +51,32 @@ char kind_letter(CommonKind kind) {
 
 std::string quoted(std::string_view label) { return "'" + std::string(label) + "'"; }
 
-std::string lobe_words(CommonLobe lobe) {
+/// How a lobe scatters.
+std::string_view adverb(CommonLobe lobe) {
     switch (lobe) {
-        case CommonLobe::Diffuse: return "diffuse lobe";
-        case CommonLobe::Glossy: return "glossy lobe";
-        case CommonLobe::Mirror: return "mirror lobe";
+        case CommonLobe::Diffuse: return " diffusely";
+        case CommonLobe::Glossy: return " glossily";
+        case CommonLobe::Mirror: return " perfectly";
         case CommonLobe::None: break;
     }
     return "";
 }
 
 std::string describe_event(const CommonEvent& event) {
-    const std::string by = event.label.empty() ? "" : " " + quoted(event.label);
+    const std::string label = event.label.empty() ? "" : " " + quoted(event.label);
+    const std::string how =
+        std::string(adverb(event.lobe)) + (label.empty() ? "" : " by a lobe" + label);
     const std::string of = event.object.empty() ? "" : " of an object " + quoted(event.object);
     const std::string group = event.group.empty() ? "" : " of group " + quoted(event.group);
     switch (event.kind) {
         case CommonKind::Camera: return "leaves the camera";
-        case CommonKind::Reflection:
-            return "is reflected by a " + lobe_words(event.lobe) + by + of;
-        case CommonKind::Transmission:
-            return "is transmitted by a " + lobe_words(event.lobe) + by + of;
-        case CommonKind::Volume: return "is scattered in a volume" + by + of;
+        case CommonKind::Reflection: return "is reflected" + how + of;
+        case CommonKind::Transmission: return "is transmitted" + how + of;
+        case CommonKind::Volume: return "is scattered in a volume" + label + of;
         case CommonKind::Straight: return "goes straight through a surface";
         case CommonKind::Foreign: return "meets the event " + event.name;
         case CommonKind::Light: return "ends at a light" + group;
-        case CommonKind::Object: return "ends at an emission" + by + of;
+        case CommonKind::Object: return "ends at an emission" + label + of;
         case CommonKind::Background: return "ends at the background" + group;
         case CommonKind::Probe: return "ends as an albedo probe";
         case CommonKind::ForeignEnd: return "ends with the event " + event.name;

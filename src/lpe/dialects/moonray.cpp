@@ -26,7 +26,7 @@ constexpr std::array kFacts{
     Fact{"every event without a label gets a placeholder, so [^'x'] takes it", true, "[^'"},
     Fact{"passing through a cut-out is an event <Ts>", true, "s>",
          Fact::bit(CommonKind::Straight)},
-    Fact{"subsurface scattering is <TD>", true, "T"},
+    Fact{"subsurface scattering is <TD>", true, "TD"},
     Fact{"a label without a dot may also stand inside [^..]", false, "[^'"},
     Fact{"an object's label is the label of its material", false, "'"},
     Fact{"a lobe of a labelled material that has no label of its own carries the material's",

@@ -21,7 +21,7 @@ constexpr std::array kFacts{
     Fact{"the label of a light is its group; a light without one has no label", false, "<L."},
     Fact{"a skydome that the camera sees is the background B; one that lights a surface is L",
          false, "", Fact::bit(CommonKind::Background)},
-    Fact{"subsurface scattering is <TD>; the renderer decides", false, "T"},
+    Fact{"subsurface scattering is <TD>; the renderer decides", false, "TD"},
 };
 constexpr std::array kPlaceholderFact{
     Fact{"the renderer gives every event without labels the label 'placeholder'", false, "'"},

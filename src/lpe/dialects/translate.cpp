@@ -459,6 +459,24 @@ Reading read_text(std::string_view text, const SourceSpan& base, const Dialect& 
     return reading;
 }
 
+/// Says so where `|` binds tightly and that makes a difference.
+void lint_binding(std::string_view text, const SourceSpan& where, const Dialect& dialect,
+                  const Reading& reading, const Limits& limits, Diagnostics& diagnostics) {
+    if (dialect.read_as_meant == nullptr || text.find('|') == std::string_view::npos) return;
+    Diagnostics ignored;
+    const Reading meant = dialect.read_as_meant(text, where, ignored);
+    if (!meant.pattern || ignored.has_errors()) return;
+    AsRead both;
+    compare_readings(reading, meant, dialect, limits, both);
+    if (!both.differs) return;
+    diagnostics.lint(Code::LpeMisread,
+                     std::string(dialect.title) + " reads this otherwise than it looks: it " +
+                         (both.missed ? "leaves out \"" + print_path(*both.missed)
+                                      : "takes \"" + print_path(*both.extra)) +
+                         "\"",
+                     where, "alternatives are written ((..)|(..))");
+}
+
 }  // namespace
 
 std::optional<Translation> translate(std::string_view text, const SourceSpan& base,
@@ -471,6 +489,7 @@ std::optional<Translation> translate(std::string_view text, const SourceSpan& ba
         Translator translator(reading, from, to, options);
         translator.set_source_text(text);
         Translation out = translator.run();
+        lint_binding(text, where, from, reading, options.limits, diagnostics);
         if (!out.exact && to.variant != nullptr) {
             const Dialect& variant = to.variant();
             Translator other(reading, from, variant, options);

@@ -202,6 +202,25 @@ TEST(Translate, TheVariantOfADialectIsOfferedWhereItIsExact) {
     EXPECT_EQ(out.notes[0], "exact for osl-placeholder: Cs*<R[GS][^'coat']>s*L");
 }
 
+TEST(Translate, ALintSaysWhereABarBindsTightly) {
+    const auto lints = [](const std::string& text, const Dialect& from) {
+        Diagnostics diagnostics;
+        (void)translate(text, {}, from, arnold_dialect(), diagnostics);
+        std::vector<std::string> out;
+        for (const Error& error : diagnostics.items())
+            out.push_back(error.message);
+        return out;
+    };
+    EXPECT_EQ(lints("CDL|CSL", renderman_dialect()),
+              std::vector<std::string>{"Pixar RenderMan reads this otherwise than it looks: it "
+                                       "leaves out \"C RD L\""});
+    EXPECT_EQ(lints("C(U2L)|O", renderman_dialect()),
+              std::vector<std::string>{
+                  "Pixar RenderMan reads this otherwise than it looks: it takes \"C L\""});
+    EXPECT_EQ(lints("((CDL)|(CSL))", osl_dialect()), std::vector<std::string>{});
+    EXPECT_EQ(lints("CDL|CSL", arnold_dialect()), std::vector<std::string>{});
+}
+
 Code code_of(const std::string& text, const Dialect& from) {
     Diagnostics diagnostics;
     EXPECT_FALSE(translate(text, {}, from, osl_dialect(), diagnostics).has_value());
@@ -234,9 +253,9 @@ TEST(CommonPaths, AreDescribedInWords) {
     EXPECT_EQ(describe_path(must_common_path("C L")),
               "a path that leaves the camera and ends at a light");
     EXPECT_EQ(describe_path(must_common_path("C RG'coat'@'hero' Ts TD V L'key'")),
-              "a path that leaves the camera, is reflected by a glossy lobe 'coat' of an object "
-              "'hero', goes straight through a surface, is transmitted by a diffuse lobe, is "
-              "scattered in a volume, and ends at a light of group 'key'");
+              "a path that leaves the camera, is reflected glossily by a lobe 'coat' of an object "
+              "'hero', goes straight through a surface, is transmitted diffusely, is scattered in "
+              "a volume, and ends at a light of group 'key'");
     const std::string path = "C RS'a' TG@'b' Ts V'c' O'd'@'e'";
     EXPECT_EQ(print_path(must_common_path(path)), path);
 }
