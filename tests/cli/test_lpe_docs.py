@@ -1,7 +1,8 @@
 """What the pages of documentation show is what the program prints, to the letter.
 
-A line `$ lightsieve lpe ...` in a code block is run, and `check` of a scene of examples/aovs; the lines after it, up to the next `$` or the end
-of the block, must be what it says. LIGHTSIEVE_UPDATE=1 rewrites the pages: read the difference.
+A line `$ lightsieve lpe ...` in a code block is run, and `check` of a scene of examples/aovs; the
+lines after it, up to the next command or the end of the block, must be what it says.
+LIGHTSIEVE_UPDATE=1 rewrites the pages: read the difference.
 """
 
 from __future__ import annotations
