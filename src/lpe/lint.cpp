@@ -11,6 +11,7 @@
 #include "lpe/cursor.h"
 #include "lpe/parse.h"
 #include "lpe/predicate.h"
+#include "lpe/references.h"
 
 namespace lightsieve::lpe {
 namespace {
@@ -43,7 +44,7 @@ bool takes_kind(const Node& test, EventKind kind) {
 /// `L'key'`: a label right after a test of light, which people mean as the light's group.
 bool has_group_after_light(const Node& root) {
     bool found = false;
-    for_each_node(root, [&](const Node& node) {
+    for_each_written_node(root, [&](const Node& node) {
         const auto* sequence = std::get_if<Sequence>(&node.form);
         if (sequence == nullptr) return;
         for (std::size_t i = 0; i + 1 < sequence->parts.size(); ++i) {
@@ -100,9 +101,16 @@ void lint_mixed(const Expr& expr, std::string_view aov_name, Diagnostics& diagno
 /// Reads the text as OSL would and asks whether that makes a difference.
 void lint_binding(std::string_view text, const SourceSpan& base, std::string_view aov_name,
                   const Expr& expr, Diagnostics& diagnostics) {
+    // What a name stands for does not change how far a bar reaches.
     Diagnostics unused;
-    const Expr tight = parse(text, base, unused, {aov_name, AlternationBinding::Tight});
-    if (tight && (equal(tight, expr) || equivalent(tight, expr))) return;
+    const auto read = [&](AlternationBinding binding) {
+        ParseOptions options{aov_name, binding};
+        options.keep_references = true;
+        return parse(text, base, unused, options);
+    };
+    const Expr tight = read(AlternationBinding::Tight);
+    if (equal(tight, read(AlternationBinding::Loose))) return;
+    if (tight && !has_unresolved(tight) && equivalent(tight, expr)) return;
     Cursor in(text, base, aov_name, diagnostics);
     // The first bar outside of labels.
     while (in.peek() != '|' && !in.at_end())
@@ -213,7 +221,7 @@ void lint_in_scene(const Expr& expr, std::string_view aov_name, std::span<const 
                    Diagnostics& diagnostics) {
     if (!expr) return;
     SceneLint lint(aov_name, events, diagnostics);
-    for_each_node(*expr, [&](const Node& node) { lint.check(node); });
+    for_each_written_node(*expr, [&](const Node& node) { lint.check(node); });
     if (lint.found()) return;
     // Say it only where the scene, not the expression itself, is the reason.
     within_budget([&] {

@@ -38,6 +38,23 @@ TEST(Lint, HintsSayWhyNothingIsTaken) {
     EXPECT_EQ(hint("C.*"), "");
 }
 
+TEST(Lint, NamesOfCustomExpressionsDoNotChangeHowFarABarReaches) {
+    ExpressionTable table;
+    Diagnostics diagnostics;
+    const auto define = [&](const std::string& text) {
+        table.define(text, stand_alone(text), diagnostics);
+    };
+    define("mine C[DS]L");
+    define("other $mine - CSL");
+    define("either (($mine)|($other))");
+    define("reaches C$mine|$other");
+    table.resolve(diagnostics);
+    std::size_t n_binding = 0;
+    for (const Error& item : diagnostics.items())
+        n_binding += item.code == Code::LpeBinding ? 1 : 0;
+    EXPECT_EQ(n_binding, 1U) << diagnostics.render();
+}
+
 TEST(Lint, RenderedText) {
     EXPECT_EQ(lints("((C.*)|(DL))"),
               "<expression>:1:9: lint[lpe-never]: this alternative can never take any path\n"

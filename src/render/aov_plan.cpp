@@ -95,6 +95,7 @@ class Planner {
         plan_.table = table_.table();
         plan_.light_groups.assign(input_.light_groups.begin(), input_.light_groups.end());
         define_expressions();
+        plan_.custom = table_.custom();
         gather_outputs();
         resolve();
         compile();
@@ -121,10 +122,12 @@ class Planner {
     }
 
     void define_expressions() {
+        if (input_.options.lpe_standard) table_.require_standard();
         for (const auto& [text, where] : option_strings(input_.graph, "light_path_expressions"))
             table_.define(text, where, diagnostics_);
         for (const std::string& text : input_.options.lpes)
             table_.define(text, lpe::stand_alone(text, "<--lpe>"), diagnostics_);
+        table_.resolve(diagnostics_);
     }
 
     void gather_outputs() {

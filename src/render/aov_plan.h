@@ -85,6 +85,7 @@ struct AovPlan {
     bool wants_beauty = false;
     lpe::BuiltinTable table = lpe::BuiltinTable::Reference;  ///< which built-ins the scene uses
     std::vector<std::string> light_groups;  ///< named groups of the scene's lights
+    std::vector<lpe::NamedExpr> custom;     ///< expressions that the scene and the caller define
 };
 
 /// An output string cut into its parts.

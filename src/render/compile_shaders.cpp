@@ -15,6 +15,13 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
     // The outermost label holds: a wrapper says what its part is called.
     if (const auto* own = node.find<Name>("label"); own != nullptr && wanted.closure.empty())
         wanted.closure = own->str();
+    if (wanted.closure.find('\'') != std::string::npos) {
+        if (prepared_.count(&node) == 0)
+            diagnostics_.error(Code::InvalidValue,
+                               "the label \"" + wanted.closure + "\" has a quote in it",
+                               node.where("label"), "expressions write it between quotes: 'skin'");
+        wanted.closure.clear();
+    }
     const std::pair key(&node, wanted);
     if (const auto known = programs_.find(key); known != programs_.end()) return known->second;
     if (failed_shaders_.count(&node) != 0) return nullptr;
