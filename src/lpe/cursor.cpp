@@ -59,6 +59,10 @@ constexpr std::array kLookAlikes{
     LookAlike{0x203A, '>'},
     LookAlike{0x2024, '.'},
     LookAlike{0x2223, '|'},
+    LookAlike{0x2010, '-'},
+    LookAlike{0x2013, '-'},
+    LookAlike{0x2014, '-'},
+    LookAlike{0x2212, '-'},
 };
 
 /// The character that `code_point` looks like, or '\0'.

@@ -31,5 +31,7 @@ void replay(const std::string& target, void (*run)(std::string_view), std::size_
 TEST(FuzzReplay, Parser) { replay("parser", testing::fuzz_parser, 20); }
 TEST(FuzzReplay, Compiler) { replay("compiler", testing::fuzz_compiler, 20); }
 
+TEST(FuzzReplay, Dialects) { replay("dialects", testing::fuzz_dialects, 20); }
+
 }  // namespace
 }  // namespace lightsieve::lpe

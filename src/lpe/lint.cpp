@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -237,24 +238,46 @@ void lint_overlaps(std::span<const LintOutput> outputs, Diagnostics& diagnostics
         const Builtin* row = find_builtin(output.name);
         return row == nullptr ? std::string_view{} : row->part;
     };
+    // Only AOVs of different parts of the beauty are added up: nobody adds `diffuse` to
+    // `diffuse_direct`. Where two parts overlap so do their direct, indirect and albedo AOVs; the
+    // first pair stands for all of them.
+    struct Overlap {
+        const LintOutput *a, *b;
+        Path both;
+        std::size_t n_more = 0;
+    };
+    std::map<std::pair<std::string_view, std::string_view>, Overlap> overlaps;
     const auto check = [&](const LintOutput& a, const LintOutput& b) {
         const std::string_view part_a = part_of(a), part_b = part_of(b);
         if (part_a.empty() || part_b.empty() || part_a == part_b) return;
-        const std::optional<Path> both = shortest_common_path(a.expr, b.expr);
+        std::optional<Path> both = shortest_common_path(a.expr, b.expr);
         if (!both) return;
-        const bool sheen = part_a == "sheen" || part_b == "sheen";
-        diagnostics.lint(Code::LpeOverlap,
-                         in_quotes(a.name) + " and " + in_quotes(b.name) + " both take " +
-                             in_quotes(print_path(*both)) + ": added up, that counts twice",
-                         b.where,
-                         sheen ? "the table of Arnold 7 takes sheen out of specular"
-                               : "leave one of them out of the sum");
+        const auto [entry, is_new] =
+            overlaps.try_emplace(std::minmax(part_a, part_b), Overlap{&a, &b, {}});
+        if (is_new)
+            entry->second.both = *std::move(both);
+        else
+            ++entry->second.n_more;
     };
     within_budget([&] {
         for (std::size_t i = 0; i < outputs.size(); ++i)
             for (std::size_t j = i + 1; j < outputs.size(); ++j)
                 check(outputs[i], outputs[j]);
     });
+    for (const auto& [parts, overlap] : overlaps) {
+        const bool sheen = parts.first == "sheen" || parts.second == "sheen";
+        const std::string more =
+            overlap.n_more == 0
+                ? ""
+                : " (so do " + std::to_string(overlap.n_more) + " more pairs like this)";
+        diagnostics.lint(Code::LpeOverlap,
+                         in_quotes(overlap.a->name) + " and " + in_quotes(overlap.b->name) +
+                             " both take " + in_quotes(print_path(overlap.both)) +
+                             ": added up, that counts twice" + more,
+                         overlap.b->where,
+                         sheen ? "the table of Arnold 7 takes sheen out of specular"
+                               : "leave one of them out of the sum");
+    }
 }
 
 }  // namespace lightsieve::lpe

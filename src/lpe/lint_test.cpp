@@ -158,6 +158,12 @@ TEST(Overlap, OfOutputsThatPeopleAddUp) {
         lint(BuiltinTable::Reference, {"RGBA", "diffuse", "specular", "coat", "sheen"}),
         "\"specular\" and \"sheen\" both take \"C RS'sheen' L\": added up, that counts twice; "
         "the table of Arnold 7 takes sheen out of specular\n");
+    // One for all pairs of the same two parts.
+    EXPECT_EQ(
+        lint(BuiltinTable::Reference,
+             {"specular", "specular_direct", "sheen", "sheen_direct", "coat"}),
+        "\"specular\" and \"sheen\" both take \"C RS'sheen' L\": added up, that counts twice "
+        "(so do 3 more pairs like this); the table of Arnold 7 takes sheen out of specular\n");
     EXPECT_EQ(lint(BuiltinTable::Arnold7, {"RGBA", "diffuse", "specular", "coat", "sheen"}), "");
     // Parts beside their sum are no mistake.
     EXPECT_EQ(lint(BuiltinTable::Reference,

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <string>
 
 namespace lightsieve::lpe {
 namespace {
 
-/// Looks at an AOV's regions that a search may take: about a hundredth of a second.
-constexpr std::size_t kMaxSearchSteps = 1'000'000;
+/// Looks at regions of AOVs that a search may take: about a hundredth of a second.
+constexpr std::size_t kMaxSearchSteps = 5'000'000;
 /// Events of a random walk after which what is left of it is too little to compare sizes.
 constexpr std::size_t kWalkLength = 32;
 /// Shares of a random walk that differ by less are equal.
@@ -174,6 +175,8 @@ class SumSearch {
         : parts_(parts), max_sums_(max_sums), covered_(parts.in_whole.size()) {
         for (std::uint32_t r = 0; r < parts.in_whole.size(); ++r)
             if (!parts.in_whole[r]) covered_[r] = true;
+        for (const std::uint32_t aov : parts.candidates)
+            steps_per_node_ += parts.members[aov].size();
     }
 
     std::vector<Members> run() {
@@ -183,7 +186,7 @@ class SumSearch {
 
   private:
     void search() {
-        n_steps_ += parts_.candidates.size() + 1;
+        n_steps_ += steps_per_node_;
         if (n_steps_ > kMaxSearchSteps || found_.size() >= max_sums_) return;
         const std::uint32_t region = hardest_region();
         if (region == covered_.size()) {
@@ -230,7 +233,7 @@ class SumSearch {
     }
 
     const Parts& parts_;
-    std::size_t max_sums_, n_steps_ = 0;
+    std::size_t max_sums_, n_steps_ = 0, steps_per_node_ = 1;
     std::vector<bool> covered_;
     Members chosen_;
     std::vector<Members> found_;
@@ -268,7 +271,8 @@ class NearestSearch {
 
   private:
     void search(std::size_t i, double share) {
-        if (++n_steps_ > kMaxSearchSteps) return;
+        if (n_steps_ > kMaxSearchSteps) return;
+        n_steps_ += parts_.in_whole.size();
         const bool better = share > best_share_ + kShareNoise;
         const bool shorter = share > best_share_ - kShareNoise && chosen_.size() < best_.size();
         if (better || shorter) {
@@ -301,6 +305,19 @@ class NearestSearch {
 };
 
 }  // namespace
+
+std::vector<Event> possible_events(std::span<const AovRequest> aovs,
+                                   std::span<const std::string> groups, const Limits& limits) {
+    std::vector<Expr> exprs;
+    for (const AovRequest& aov : aovs)
+        exprs.push_back(aov.expr);
+    for (const std::string& group : groups) {
+        const LabelTest in_group{LabelTest::Form::One, {group}, {}};
+        exprs.push_back(std::make_shared<const Node>(Node{
+            Angle{{LetterTest::Form::OneOf, "LB"}, {LetterTest::Form::Any, ""}, {in_group}}, {}}));
+    }
+    return abstract_events(exprs, limits);
+}
 
 std::vector<Region> regions(std::span<const AovRequest> aovs, std::span<const Event> events,
                             const Limits& limits) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/event.h"
@@ -26,6 +27,12 @@ struct Region {
     Path example;                     ///< a shortest one of its paths
     double share = 0;  ///< of a random walk that ends at half of its vertices: to compare sizes
 };
+
+/// The events to give to `regions` for an answer about every scene whose lights are in these groups
+/// (or in none): as `abstract_events`, for AOVs that are restricted to a group.
+[[nodiscard]] std::vector<Event> possible_events(std::span<const AovRequest> aovs,
+                                                 std::span<const std::string> groups,
+                                                 const Limits& limits = {});
 
 /// The regions of these AOVs among the paths that can be made of `events`, shortest example first.
 ///

@@ -247,12 +247,6 @@ lpe::AovRequest request_of(const SetMember& member) {
     return out;
 }
 
-/// A test that takes the light of a group: for the events that a set of AOVs must tell apart.
-lpe::Expr group_test(const std::string& group) {
-    Diagnostics diagnostics;
-    return lpe::parse("C.*<[LB].'" + group + "'>", diagnostics);
-}
-
 /// How a set of AOVs divides the light.
 class AovSet {
   public:
@@ -265,11 +259,9 @@ class AovSet {
             requests.push_back(request_of(member));
             exprs.push_back(requests.back().expr);
         }
-        for (const std::string& group : groups)
-            exprs.push_back(group_test(group));
-        with_groups_ = names_groups(exprs, events);
-        regions_ =
-            lpe::regions(requests, events ? parse_events(*events) : lpe::abstract_events(exprs));
+        with_groups_ = !groups.empty() || names_groups(exprs, events);
+        regions_ = lpe::regions(
+            requests, events ? parse_events(*events) : lpe::possible_events(requests, groups));
     }
 
     [[nodiscard]] std::string_view relation(std::uint32_t a, std::uint32_t b) const {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "lpe/algebra.h"
+#include "lpe/dialects/dialect.h"
+#include "lpe/dialects/translate.h"
 #include "lpe/parse.h"
 #include "lpe/print.h"
 #include "lpe/program.h"
@@ -141,6 +143,30 @@ void fuzz_compiler(std::string_view text) {
     try {
         check_witnesses(aovs.front().expr, aovs.back().expr);
         (void)simplify(aovs.front().expr, kLimits);
+    } catch (const InputError&) {
+        // Too much work.
+    }
+}
+
+void fuzz_dialects(std::string_view text) {
+    if (text.size() < 2) return;
+    const std::span<const dialects::Dialect* const> all = dialects::dialects();
+    const auto pick = [&](char c) -> const dialects::Dialect& {
+        return *all[static_cast<unsigned char>(c) % all.size()];
+    };
+    const dialects::Dialect &from = pick(text[0]), &to = pick(text[1]);
+    const std::string_view expression = text.substr(2);
+    Diagnostics diagnostics;
+    try {
+        const std::optional<dialects::Translation> made = dialects::translate(
+            expression, SourceSpan{}, from, to, diagnostics, {.without = {}, .limits = kLimits});
+        check_places(diagnostics, expression.size());
+        require(made.has_value() || diagnostics.has_errors(), "nothing, and no error");
+        if (!made || made->text.empty()) return;
+        require(!made->exact || (!made->lost && !made->added), "exact, with a loss");
+        Diagnostics again;
+        (void)to.read(made->text, SourceSpan{}, again);
+        require(!again.has_errors(), "cannot be read: " + made->text);
     } catch (const InputError&) {
         // Too much work.
     }

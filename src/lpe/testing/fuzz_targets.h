@@ -18,4 +18,9 @@ void fuzz_parser(std::string_view text);
 /// equal to what `simplify` makes of it, and witnesses of `compare` must be right.
 void fuzz_compiler(std::string_view text);
 
+/// The first two characters choose dialects, the rest is read in the first and translated to the
+/// second. Errors must point into the text; a translation must be readable in its dialect, and one
+/// that claims to be exact must not come with a path that shows a loss.
+void fuzz_dialects(std::string_view text);
+
 }  // namespace lightsieve::lpe::testing
