@@ -249,6 +249,8 @@ TEST(Lobe, EdgesOfParametersAreSane) {
         }
         expect_sane(ThinTransmit(alpha));
         expect_sane(ThinTransmit(stretched));
+        for (const float thickness : {0.0F, 300.0F, a})
+            expect_sane(FilmReflect(alpha, thickness, a, Color::grey(a), Color(1, a, 0)));
         expect_sane(SheenReflect(a));
         expect_sane(DiffuseReflect(kWhite, a));
         expect_sane(DiffuseTransmit(Color(nan, -1, 1), a));

@@ -13,6 +13,7 @@
 #include "bsdf/diffuse.h"
 #include "bsdf/schlick.h"
 #include "bsdf/sheen.h"
+#include "bsdf/thin_film.h"
 #include "bsdf/thin_transmit.h"
 
 namespace lightsieve {
@@ -20,7 +21,7 @@ namespace lightsieve {
 /// One lobe; the first alternative is the cheapest to default-construct.
 using LobeModel =
     std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit,
-                 ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect>;
+                 ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect, FilmReflect>;
 
 static_assert(std::is_trivially_copyable_v<LobeModel>);
 static_assert(sizeof(LobeModel) <= 64, "closures are copied at every hit");

@@ -115,9 +115,9 @@ class Layering {
         if (metalness > 0) {
             const Color reflectivity = unit(positive(s_.base) * positive(s_.base_color));
             const Color edge_tint = unit(positive(s_.specular) * positive(s_.specular_color));
-            out_.add(kMetal,
-                     ConductorReflect::from_artistic(specular_alpha(roughness(0)), reflectivity,
-                                                     edge_tint),
+            const auto metal = ConductorReflect::from_artistic(specular_alpha(roughness(0)),
+                                                               reflectivity, edge_tint);
+            out_.add(kMetal, has_film() ? filmed(metal.alpha, metal.n, metal.k) : LobeModel(metal),
                      left_ * metalness, specular_frame().index, s_.caustics);
         }
         left_ *= 1 - metalness;
@@ -127,8 +127,9 @@ class Layering {
     void add_specular() {
         const Color weight = positive(s_.specular) * positive(s_.specular_color);
         if (is_black(weight) || is_black(left_)) return;
-        const LobeModel model =
-            dielectric_reflection(specular_alpha(roughness(0)), relative_ior());
+        const GgxAlpha alpha = specular_alpha(roughness(0));
+        const LobeModel model = has_film() ? filmed(alpha, Color::grey(s_.specular_IOR), kBlack)
+                                           : dielectric_reflection(alpha, relative_ior());
         const OrientedFrame frame = specular_frame();
         if (!inside_ || s_.internal_reflections)
             out_.add(kSpecular, model, left_ * weight, frame.index, s_.caustics);
@@ -205,6 +206,13 @@ class Layering {
     }
     [[nodiscard]] GgxAlpha specular_alpha(float r) const {
         return GgxAlpha::from_roughness(r, s_.specular_anisotropy);
+    }
+    /// A film lies on the outside of bodies, below the coat.
+    [[nodiscard]] bool has_film() const {
+        return s_.thin_film_thickness > 0 && !inside_ && !s_.thin_walled;
+    }
+    [[nodiscard]] LobeModel filmed(GgxAlpha alpha, Color n, Color k) const {
+        return FilmReflect(alpha, s_.thin_film_thickness, s_.thin_film_IOR, n, k);
     }
     /// n(far side) / n(side of wo).
     [[nodiscard]] float relative_ior() const {
@@ -353,10 +361,8 @@ void describe_coat(Describe<S>& d) {
     d.param("thin_film_thickness", &S::thin_film_thickness,
             "Thickness of an iridescent film; 0: none.")
         .unit("nm")
-        .pending();
-    d.param("thin_film_IOR", &S::thin_film_IOR,
-            "Index of refraction of the film; acts with thin_film_thickness.")
-        .ignored();
+        .range(0, 2000);
+    d.param("thin_film_IOR", &S::thin_film_IOR, "Index of refraction of the film.").range(1, 3);
 }
 
 void describe_rest(Describe<S>& d) {
