@@ -129,7 +129,7 @@ class Describer {
         if (const auto* difference = std::get_if<Difference>(&expr->form))
             return joined_paths(difference->parts, ", but not ", ", nor ");
         if (const auto* complement = std::get_if<Complement>(&expr->form))
-            return "all light but " + paths(complement->body);
+            return "all light but " + operand(complement->body);
         if (const auto* alternation = std::get_if<Alternation>(&expr->form)) {
             Texts kinds;
             for (const Expr& part : alternation->parts)
@@ -146,8 +146,18 @@ class Describer {
                              const char* further) {
         std::string out;
         for (std::size_t i = 0; i < parts.size(); ++i)
-            out += (i == 0 ? "" : i == 1 ? first : further) + paths(parts[i]);
+            out += (i == 0 ? "" : i == 1 ? first : further) + operand(parts[i]);
         return out;
+    }
+
+    /// In parentheses, unless it is paths that do this and that, or a name.
+    std::string operand(const Expr& expr) {
+        const Expr form = factored(expr);
+        const bool open = std::holds_alternative<Intersection>(form->form) ||
+                          std::holds_alternative<Difference>(form->form) ||
+                          std::holds_alternative<Complement>(form->form) ||
+                          std::holds_alternative<Alternation>(form->form);
+        return open ? "(" + paths(expr) + ")" : paths(expr);
     }
 
     /// What a part of an expression says, one verb a clause.

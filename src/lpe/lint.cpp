@@ -79,17 +79,26 @@ std::string never_hint(const Expr& expr) {
     return "C can stand only first, L O B A only last";
 }
 
+/// The operands of an expression, each of which should take something, and what is wrong if not.
+std::pair<std::span<const Expr>, const char*> operands(const Node& node) {
+    if (std::holds_alternative<Alternation>(node.form))
+        return {children(node), "this alternative can never take any path"};
+    if (std::holds_alternative<Difference>(node.form))
+        return {children(node).subspan(1), "this takes nothing away: it can never take any path"};
+    if (std::holds_alternative<Complement>(node.form))
+        return {children(node), "this excludes nothing: it can never take any path"};
+    return {};
+}
+
 void lint_never(const Expr& expr, std::string_view aov_name, Diagnostics& diagnostics) {
     if (!shortest_path(expr))
         return diagnostics.lint(Code::LpeNever, prefix(aov_name) + "this can never take any path",
                                 expr->where, never_hint(expr));
-    const auto* alternation = std::get_if<Alternation>(&expr->form);
-    if (alternation == nullptr) return;
-    for (const Expr& part : alternation->parts)
+    const auto [parts, problem] = operands(*expr);
+    for (const Expr& part : parts)
         if (!shortest_path(part))
-            diagnostics.lint(Code::LpeNever,
-                             prefix(aov_name) + "this alternative can never take any path",
-                             part->where, never_hint(part));
+            diagnostics.lint(Code::LpeNever, prefix(aov_name) + problem, part->where,
+                             never_hint(part));
 }
 
 void lint_mixed(const Expr& expr, std::string_view aov_name, Diagnostics& diagnostics) {

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from lightsieve.cli import _output
+from lightsieve.cli import _output, _scene_options
 
 if TYPE_CHECKING:
     from lightsieve import lpe
@@ -20,10 +20,7 @@ Scene = Annotated[
         help="Ask about the paths that this scene can make, with its own expressions.",
     ),
 ]
-LpeStandard = Annotated[
-    bool,
-    typer.Option("--lpe-standard", help="Our extensions of the expression language are errors."),
-]
+LpeStandard = _scene_options.LpeStandard
 LpeTable = Annotated[
     Literal["reference", "arnold7"] | None,
     typer.Option(

@@ -11,7 +11,7 @@ from lightsieve.cli import _output, _scene_options
 from lightsieve.cli._output import plural
 
 if TYPE_CHECKING:
-    from lightsieve._core import CompiledScene, SceneSummary
+    from lightsieve._core import SceneSummary
     from lightsieve.survey import Missing, Survey
 
 # Lines of one kind that are printed; --json has all.
@@ -21,10 +21,7 @@ EXAMPLE = "lightsieve check shot.ass --strict"
 JSON = {
     "scene": "the file",
     "ok": "true if there are no errors",
-    "errors": "how many",
-    "warnings": "how many",
-    "lints": "how many",
-    "diagnostics": "the first 20 errors and 200 warnings and lints",
+    **_scene_options.DIAGNOSTICS_JSON,
     "summary": "null if errors forbid rendering, else an object: `width`, `height`, "
     "`samples_per_pixel`, `shapes`, `instances`, `triangles`, `spheres`, `lights`, `shaders`, "
     "`light_groups`, `expressions`, `states`, `atoms`, `files` (each `path` and `layers`: `name`, "
@@ -155,12 +152,6 @@ def _inside(survey: Survey) -> list[str]:
     ]
 
 
-def count_text(scene: CompiledScene) -> str:
-    """`1 error, 2 warnings, no lints`."""
-    counts = [(scene.n_errors, "error"), (scene.n_warnings, "warning"), (scene.n_lints, "lint")]
-    return ", ".join(plural(n, noun) if n else f"no {noun}s" for n, noun in counts)
-
-
 def command(
     scene: Annotated[
         Path, typer.Argument(metavar="SCENE.ass", help="The scene, .ass or .ass.gz.")
@@ -196,10 +187,7 @@ def command(
             {
                 "scene": str(scene),
                 "ok": compiled.n_errors == 0,
-                "errors": compiled.n_errors,
-                "warnings": compiled.n_warnings,
-                "lints": compiled.n_lints,
-                "diagnostics": [item.to_dict() for item in compiled.diagnostics],
+                **_scene_options.diagnostics_document(compiled),
                 "summary": None if summary is None else summary_document(summary),
                 "aovs": None if found is None else found.to_dict(),
             }
@@ -210,6 +198,6 @@ def command(
             _print_summary(str(scene), summary)
         if found is not None:
             _output.print_table(_survey_rows(found), ["bold"])
-        typer.echo(count_text(compiled))
+        typer.echo(_scene_options.count_text(compiled))
     if compiled.n_errors:
         raise typer.Exit(1)

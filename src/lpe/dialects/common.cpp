@@ -203,7 +203,7 @@ void CommonAlphabet::add_labelled(const CommonEvent& event, std::span<const std:
     for (const std::string& object : objects) {
         add_with("", object);
         for (const std::string& label : labels)
-            if (label != object) add_with(label, object);
+            add_with(label, object);
     }
 }
 

@@ -9,23 +9,29 @@ namespace {
 
 constexpr std::string_view kPlaceholder = "placeholder";
 
-constexpr std::array kFacts{
+constexpr std::array kFamilyFacts{
     Fact{"`|` joins one item on each side, and what follows a leading parenthesis is ignored",
          true, "|"},
     Fact{"G is glossy, S is a perfect mirror only", true},
     Fact{"labels are tested in order", true, "'"},
-    Fact{"an event without labels does not pass a [^'x']", true, "[^'"},
     Fact{"passing through a cut-out is an event <Ts>", true, "s>",
          Fact::bit(CommonKind::Straight)},
     Fact{"the lobe's label comes before the object's, if a renderer gives both", false, "'"},
-    Fact{"the label of a light is its group; a light without one has no label", false, "<L."},
+    Fact{"the label of a light is its group", false, "<L."},
     Fact{"a skydome that the camera sees is the background B; one that lights a surface is L",
          false, "", Fact::bit(CommonKind::Background)},
     Fact{"subsurface scattering is <TD>; the renderer decides", false, "TD"},
 };
-constexpr std::array kPlaceholderFact{
-    Fact{"the renderer gives every event without labels the label 'placeholder'", false, "'"},
-};
+
+constexpr auto with(const Fact& own) {
+    std::array<Fact, kFamilyFacts.size() + 1> all{own};
+    for (std::size_t i = 0; i < kFamilyFacts.size(); ++i)
+        all[i + 1] = kFamilyFacts[i];
+    return all;
+}
+constexpr auto kFacts = with({"an event without labels does not pass a [^'x']", true, "[^'"});
+constexpr auto kPlaceholderFacts =
+    with({"the renderer gives every event without labels the label 'placeholder'", false, "'"});
 
 View view(const CommonEvent& event) { return osl_view(event); }
 
@@ -74,7 +80,7 @@ const Dialect& osl_placeholder_dialect() {
     static const Dialect dialect{
         .name = "osl-placeholder",
         .title = "Open Shading Language in a renderer that labels every event",
-        .facts = kPlaceholderFact,
+        .facts = kPlaceholderFacts,
         .prefixes = {},
         .repeats = Repeats::Counts,
         .view = view_with_placeholder,

@@ -325,12 +325,23 @@ class Translator {
         PatternPtr read = make_nothing();
         if (!out.text.empty()) {
             const Reading again = to_.read(out.text, {}, diagnostics);
-            LIGHTSIEVE_ASSERT(again.pattern != nullptr, diagnostics.render());
+            if (diagnostics.has_errors()) throw OverBudget(limit_of(diagnostics));
+            LIGHTSIEVE_ASSERT(again.pattern != nullptr, out.text);
             read = resolve(*again.pattern, alphabet_, sees_to_);
         }
         out.paths = paths_of(*read, alphabet_, sees_to_.invisible, limits_);
         out.exact = same_paths(out.paths, paths_, alphabet_, limits_);
         return out;
+    }
+
+    /// What the other dialect's reader refused: only a limit can be the reason.
+    static OverBudget limit_of(const Diagnostics& diagnostics) {
+        const Error& error = diagnostics.items().front();
+        LIGHTSIEVE_ASSERT(code_text(error.code).starts_with("limit-"), diagnostics.render());
+        // Its hint is "the limit NAME is N".
+        const std::size_t name = error.hint.find("kMax");
+        return {error.code, "cannot be read back: " + error.message,
+                name == std::string::npos ? error.hint : error.hint.substr(name)};
     }
 
     /// The expression's own shape if that is exact; else the shape of its automaton, which tells
@@ -341,6 +352,11 @@ class Translator {
         if (keeps_shape) own = candidate(*pattern_, sees_from_.invisible, true);
         if (own && (own->exact || paths_.n_states() > kMaxEliminatedStates))
             return *std::move(own);
+        if (paths_.n_states() > kMaxEliminatedStates)
+            throw OverBudget{Code::LimitLpeStates,
+                             "is too intricate to be written without & and -: it needs " +
+                                 std::to_string(paths_.n_states()) + " states",
+                             std::to_string(kMaxEliminatedStates) + " states"};
         try {
             const PatternPtr pattern = with_events_joined(*to_pattern(paths_, alphabet_, limits_));
             if (own && count_nodes(*pattern) > kMaxEliminatedNodes) return *std::move(own);

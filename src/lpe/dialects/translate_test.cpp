@@ -242,7 +242,14 @@ TEST(Translate, LimitsHold) {
     EXPECT_EQ(code_of("C.*D.{20}L", osl_dialect()), Code::LimitLpeStates);
     EXPECT_EQ(code_of("CD{300}L", osl_dialect()), Code::LimitLpeRepeat);
     EXPECT_EQ(code_of("C((((D{0,16}){16}){16}){16}){16}L", osl_dialect()), Code::LimitLpeNodes);
-    // What would be too long when written out without counts.
+    EXPECT_EQ(code_of("C.*D.{9}L - CL", arnold_dialect()), Code::LimitLpeStates);
+    // What would be too long or too deep when written out without counts.
+    for (const std::string text : {"CD{1,120}L", "CD{1,200}L", "CD{1,256}S{1,256}L"}) {
+        Diagnostics deep;
+        const auto out = translate(text, {}, arnold_dialect(), karma_dialect(), deep);
+        EXPECT_EQ(out.has_value(), !deep.has_errors()) << text;
+        EXPECT_TRUE(!out || out->exact) << text;
+    }
     Diagnostics diagnostics;
     EXPECT_FALSE(
         translate("C(D{1,200}S){1,200}L", {}, arnold_dialect(), karma_dialect(), diagnostics));
