@@ -10,6 +10,8 @@ namespace {
 
 /// Orders of interference that are added up; higher ones are below 1e-3 but for metals under films of high index.
 constexpr int kOrders = 3;
+/// Least share of the light that leaves a film at each turn.
+constexpr float kLeastEscape = 1e-6F;
 
 /// A Gaussian of the eye's sensitivity over the wave number. Belcour and Barla 2017, supplemental code.
 struct Sensitivity {
@@ -79,7 +81,9 @@ Color reflectance_over(float cosine, float ior, float n, float k, const Way& way
         const float big_r23 = std::norm(below[polarisation]), through = 1 - big_r12;
         // From within the film the upper side reflects with the opposite sign.
         const float shift = std::arg(below[polarisation]) + (r12 < 0 ? 0 : kPi);
-        const float all = through * through * big_r23 / (1 - big_r12 * big_r23);
+        // Total reflection on both sides leaves nothing in the film: 0 / 0.
+        const float all =
+            through * through * big_r23 / std::max(1 - big_r12 * big_r23, kLeastEscape);
         sum += Color::grey(0.5F * (big_r12 + all));
         float c = all - through;
         for (std::size_t m = 0; m < kOrders; ++m) {
@@ -97,7 +101,8 @@ float limited(float v, float low, float high) {
 }  // namespace
 
 Color ThinFilm::reflectance(float cos_theta) const noexcept {
-    const float cosine = std::clamp(cos_theta, 1e-4F, 1.0F);
+    // Nearer to the horizon 1 - cos^2 rounds to 1.
+    const float cosine = std::clamp(cos_theta, 1e-3F, 1.0F);
     const float cos_film = std::sqrt(1 - (1 - cosine * cosine) / (ior * ior));
     const Way way(2 * ior * thickness * cos_film);
     Color out = reflectance_over(cosine, ior, n.r, k.r, way);
