@@ -151,3 +151,10 @@ def test_layers_of_different_filters_do_not_add_up(run: Run, tmp_path: Path) -> 
     text = scene.read_text().replace("direct RGB filter", "direct RGB other", 1)
     scene.write_text(text + "box_filter { name other }\n")
     assert run("check", scene, "--json").json["aovs"]["sums"] == []
+
+
+def test_sums_of_custom_expressions_are_found_in_the_pixels(run: Run, tmp_path: Path) -> None:
+    assert run("render", ROOT / "examples/aovs/blender_style.ass", "--spp", "1", "-q").code == 0
+    done = run("exr", "verify", tmp_path / "blender_style.exr")
+    assert done.code == 0
+    assert done.out.startswith("adds up      RGBA = DiffDir + DiffInd + GlossDir + GlossInd + ")

@@ -16,6 +16,8 @@ constexpr std::string_view kNoGroup = "default";
 constexpr std::array kFacts{
     Fact{"specular is one lobe here, rough or not", true},
     Fact{"passing through a cut-out leaves no event", true, "", Fact::bit(CommonKind::Straight)},
+    Fact{"a skydome that lights a surface is L, and the background B where the camera sees it",
+         false, "", Fact::bit(CommonKind::Background)},
     Fact{"a light that has no group is in the group 'default'", true, "'default'"},
 };
 

@@ -14,6 +14,7 @@ constexpr std::string_view kStraight = "passthru";
 
 constexpr std::array kFacts{
     Fact{"`|` joins one item on each side", true, "|"},
+    Fact{"what follows a leading parenthesis is read", false, "("},
     Fact{"`.` takes reflections and transmissions only", true, "."},
     Fact{"S is every specular lobe, rough or not", true, "S"},
     Fact{"a light or emission that the camera sees is O", true, "O",
