@@ -81,7 +81,7 @@ void ClosureSet::emit(int lobe, Color radiance) {
 LobeEval ClosureSet::eval(std::size_t i, Vec3f wi) const noexcept {
     const Closure& c = closures_[i];
     const Vec3f wi_local = frames_[c.frame].local_from_world(wi);
-    LobeEval e = std::visit(
+    LobeEval e = visit_lobe(
         [&](const auto& model) { return model.eval(wo_local_[c.frame], wi_local); }, c.model);
     e.f *= c.weight;
     return e;
@@ -89,7 +89,7 @@ LobeEval ClosureSet::eval(std::size_t i, Vec3f wi) const noexcept {
 
 LobeSample ClosureSet::sample(std::size_t i, Vec2f u, float u_choice) const noexcept {
     const Closure& c = closures_[i];
-    LobeSample s = std::visit(
+    LobeSample s = visit_lobe(
         [&](const auto& model) { return model.sample(wo_local_[c.frame], u, u_choice); }, c.model);
     s.wi = frames_[c.frame].world_from_local(s.wi);
     s.f *= c.weight;
@@ -99,12 +99,12 @@ LobeSample ClosureSet::sample(std::size_t i, Vec2f u, float u_choice) const noex
 Color ClosureSet::albedo(std::size_t i) const noexcept {
     const Closure& c = closures_[i];
     return c.weight *
-           std::visit([&](const auto& model) { return model.albedo(wo_local_[c.frame]); },
+           visit_lobe([&](const auto& model) { return model.albedo(wo_local_[c.frame]); },
                       c.model);
 }
 
 bool ClosureSet::delta(std::size_t i) const noexcept {
-    return std::visit([](const auto& model) { return model.delta(); }, closures_[i].model);
+    return visit_lobe([](const auto& model) { return model.delta(); }, closures_[i].model);
 }
 
 }  // namespace lightsieve

@@ -31,9 +31,7 @@ Vec3f mirrored(Vec3f w) { return {w.x, w.y, -w.z}; }
 
 }  // namespace
 
-Color DiffuseSurface::value(Vec3f wo, Vec3f wi) const noexcept {
-    if (roughness == 0) return color * (kInvPi * wi.z);
-
+Color DiffuseSurface::rough_value(Vec3f wo, Vec3f wi) const noexcept {
     // Single scattering: the QON form of Fujii with FON's normalisation (eq. 13 and 14).
     const float a = 1 / (1 + kFon1 * roughness);
     const float s = dot(wo, wi) - wo.z * wi.z;
@@ -48,16 +46,10 @@ Color DiffuseSurface::value(Vec3f wo, Vec3f wi) const noexcept {
     return (color * single + multiple(color, mean) * twice) * (kInvPi * wi.z);
 }
 
-Color DiffuseSurface::albedo(float cos_theta_o) const noexcept {
-    if (roughness == 0) return color;
+Color DiffuseSurface::rough_albedo(float cos_theta_o) const noexcept {
     const float a = 1 / (1 + kFon1 * roughness);
     const float single = fon_albedo(cos_theta_o, roughness, a);
     return color * single + multiple(color, a * (1 + kFon2 * roughness)) * (1 - single);
-}
-
-LobeEval DiffuseReflect::eval(Vec3f wo, Vec3f wi) const noexcept {
-    if (!(wi.z > 0)) return {};
-    return {surface.value(wo, wi), kInvPi * wi.z};
 }
 
 LobeSample DiffuseReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {

@@ -23,11 +23,17 @@ struct DiffuseSurface {
                 non_negative(reflectance.b)),
           roughness(std::min(non_negative(diffuse_roughness), 1.0F)) {}
     /// f(wo, wi) * cos theta_i for two directions above the surface [1/sr].
-    [[nodiscard]] Color value(Vec3f wo, Vec3f wi) const noexcept;
+    [[nodiscard]] Color value(Vec3f wo, Vec3f wi) const noexcept {
+        return roughness == 0 ? color * (kInvPi * wi.z) : rough_value(wo, wi);
+    }
     /// Directional albedo for cos theta_o in (0,1].
-    [[nodiscard]] Color albedo(float cos_theta_o) const noexcept;
+    [[nodiscard]] Color albedo(float cos_theta_o) const noexcept {
+        return roughness == 0 ? color : rough_albedo(cos_theta_o);
+    }
 
   private:
+    [[nodiscard]] Color rough_value(Vec3f wo, Vec3f wi) const noexcept;
+    [[nodiscard]] Color rough_albedo(float cos_theta_o) const noexcept;
     static float non_negative(float v) { return v > 0 && std::isfinite(v) ? v : 0.0F; }
 };
 
@@ -38,7 +44,9 @@ struct DiffuseReflect {
     DiffuseReflect() = default;
     explicit DiffuseReflect(Color color, float roughness = 0) noexcept
         : surface(color, roughness) {}
-    [[nodiscard]] LobeEval eval(Vec3f wo, Vec3f wi) const noexcept;
+    [[nodiscard]] LobeEval eval(Vec3f wo, Vec3f wi) const noexcept {
+        return wi.z > 0 ? LobeEval{surface.value(wo, wi), kInvPi * wi.z} : LobeEval{};
+    }
     [[nodiscard]] LobeSample sample(Vec3f wo, Vec2f u, float u_choice) const noexcept;
     [[nodiscard]] Color albedo(Vec3f wo) const noexcept { return surface.albedo(wo.z); }
     [[nodiscard]] bool delta() const noexcept { return false; }

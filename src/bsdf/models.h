@@ -23,6 +23,13 @@ using LobeModel =
     std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit,
                  ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect, FilmReflect>;
 
+/// std::visit, with a short way for the lobe that most surfaces have.
+template <class Visitor>
+[[nodiscard]] inline decltype(auto) visit_lobe(const Visitor& visitor, const LobeModel& model) {
+    if (const auto* diffuse = std::get_if<DiffuseReflect>(&model)) return visitor(*diffuse);
+    return std::visit(visitor, model);
+}
+
 static_assert(std::is_trivially_copyable_v<LobeModel>);
 static_assert(sizeof(LobeModel) <= 64, "closures are copied at every hit");
 

@@ -307,10 +307,13 @@ Accel::Accel(std::span<const AccelObject> objects, const std::string& isa, bool 
     const std::string config = isa.empty() ? std::string() : "isa=" + isa;
     s.device.reset(rtcNewDevice(config.empty() ? nullptr : config.c_str()));
     if (!s.device)
-        throw InputError({Code::LimitMemory,
-                          "the ray library cannot be started with instruction set \"" + isa + "\"",
-                          {},
-                          "sse2, avx2 and avx512 are known; the processor must have it"});
+        throw InputError(
+            {isa.empty() ? Code::LimitMemory : Code::InvalidValue,
+             isa.empty()
+                 ? std::string("the ray library cannot be started")
+                 : "the ray library cannot be started with instruction set \"" + isa + "\"",
+             {},
+             "sse2, avx2 and avx512 are known; the processor must have it"});
     s.top = s.new_scene();
     std::map<const ShapeGeometry*, int> uses;
     for (const AccelObject& object : objects)

@@ -12,9 +12,10 @@ namespace lightsieve {
 namespace {
 
 /// Shadow rays end this much (relative) before a light, so that they do not meet its own shape.
-constexpr float kShadowEpsilon = 1e-4F;
-/// Light geometry up to this much (relative) behind a surface still counts as in front: lamps lie in ceilings.
-constexpr float kCoplanar = 1e-4F;
+constexpr float kShadowEpsilon = 1e-5F;
+/// Lamps lie in ceilings: a lamp behind a surface still counts as in front if its plane is no farther off than positions of
+/// this size are rounded (relative). Along a slanting ray that may be more, up to kCoplanar (relative).
+constexpr float kCoplanar = 1e-4F, kRounding = 1e-6F;
 /// Area lights that one ray may pass.
 constexpr int kMaxLightsAlongRay = 256;
 /// Light samples of little effect are traced at least this often.
@@ -24,6 +25,14 @@ constexpr std::uint32_t kMaxSegments = 1024;
 
 /// The ray of a group as a bit of a mask.
 std::uint32_t bit_of(const PathGroup& group) { return ray_bit(group.key.ray_type); }
+
+/// Whether a lamp that a ray meets `beyond` a surface (along the ray) lies farther behind it than rounding explains.
+bool is_behind(const LightHit& lamp, float beyond, const Ray& ray) {
+    if (!(beyond > 0)) return false;
+    const Vec3f p = lamp.position;
+    const float size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + lamp.distance;
+    return beyond * std::abs(dot(lamp.normal, ray.direction)) > kRounding * size;
+}
 
 #ifdef LIGHTSIEVE_FAULT_INJECTION
 /// Emission of some shader of the scene, or black background if nothing shines.
@@ -218,6 +227,7 @@ bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
         const std::uint32_t index = scene_.light_of_object[hit.object];
         const SceneLight& light = scene_.lights[index];
         const LightHit at = make_light_hit(scene_.light_objects[hit.object], ray, hit);
+        if (is_behind(at, hit.t - t_surface, ray)) return false;
         rest.t_min = std::nextafter(hit.t, kInfinity);
         Terminal terminal{light.as_light, light.light_event};
 #ifdef LIGHTSIEVE_FAULT_INJECTION
