@@ -11,6 +11,7 @@
 #include "bsdf/conductor.h"
 #include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
+#include "bsdf/hair.h"
 #include "bsdf/schlick.h"
 #include "bsdf/sheen.h"
 #include "bsdf/thin_transmit.h"
@@ -18,9 +19,14 @@
 namespace lightsieve {
 
 /// One lobe; the first alternative is the cheapest to default-construct.
-using LobeModel =
-    std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit,
-                 ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect>;
+using LobeModel = std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect,
+                               DielectricTransmit, ThinTransmit, ConductorReflect, SchlickReflect,
+                               SheenReflect, HairLobe, FibreDiffuse>;
+
+/// Lobes of fibres have no sides: light from behind the shading normal counts as much.
+[[nodiscard]] inline bool has_no_sides(const LobeModel& model) noexcept {
+    return std::holds_alternative<HairLobe>(model) || std::holds_alternative<FibreDiffuse>(model);
+}
 
 static_assert(std::is_trivially_copyable_v<LobeModel>);
 static_assert(sizeof(LobeModel) <= 64, "closures are copied at every hit");

@@ -83,7 +83,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         surface.at.ray_type = ray_type;
         const bool from_camera = ray_type == RayType::Camera;
         if (!surface.at.entering && (object.sidedness & ray_bit(ray_type)) == 0) {
-            ray.origin = offset_ray_origin(surface.at.position, -surface.outward);
+            ray.origin = start_of_ray(surface, ray.direction);
             ray.t_min = 0;
             ray.t_max -= hit.t;
             continue;
@@ -393,7 +393,8 @@ void Integrator<Tracker>::gather_channels() {
     const std::span<const Closure> closures = closures_.closures();
     for (std::size_t i = 0; i < closures.size(); ++i) {
         all_delta_ = all_delta_ && closures_.delta(i);
-        transmissive_ |= closures[i].record->kind == EventKind::Transmission;
+        transmissive_ |=
+            closures[i].record->kind == EventKind::Transmission || has_no_sides(closures[i].model);
         put(i, {closures[i].record, closures[i].caustics});
     }
     for (std::size_t i = closures.size(); i < n_scatterers(); ++i)
@@ -433,7 +434,7 @@ float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi,
     for (std::size_t i = 0; i < closures.size(); ++i) {
         const LobeEval eval = closures_.eval(i, wi);
         pdf += probability_[i] * eval.pdf;
-        if (sides_agree) by_channel[channel_of_[i]] += eval.f;
+        if (sides_agree || has_no_sides(closures[i].model)) by_channel[channel_of_[i]] += eval.f;
     }
     return pdf;
 }
@@ -506,9 +507,8 @@ auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index
     const SceneObject& object = *surface.object;
     if (!light.common.cast_shadows || !object.receive_shadows) return {kWhite, kWhite};
     if (!object.shadow_lights.empty() && !object.shadow_lights[index]) return {kWhite, kWhite};
-    const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
-    Ray ray{offset_ray_origin(surface.at.position, side), sample.wi, 0,
-            sample.distance * (1 - kShadowEpsilon), surface.at.time};
+    Ray ray{start_of_ray(surface, sample.wi), sample.wi, 0, sample.distance * (1 - kShadowEpsilon),
+            surface.at.time};
     Visibility out = visibility_along(ray, object.self_shadows ? nullptr : &object);
     if (light.common.shadow_density == 1 && is_black(light.common.shadow_color)) return out;
     for (Color* through : {&out.straight, &out.tinted}) {
@@ -551,7 +551,7 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -
             if (is_black(out.tinted)) return dark;
             ++passed;
         }
-        const Vec3f origin = offset_ray_origin(surface.at.position, -surface.outward);
+        const Vec3f origin = start_of_ray(surface, ray.direction);
         ray.t_max -= dot(origin - ray.origin, ray.direction);
         if (!(ray.t_max > 0)) return out;
         ray.origin = origin;
