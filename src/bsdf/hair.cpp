@@ -89,8 +89,9 @@ HairLobe::HairLobe(HairPath lobe_path, HairWidth lobe_width, float index, Color 
     for (int c = 0; c < 3; ++c)
         absorption[c] = within(lobe_absorption[c], 0, kMaxAbsorption);
     offset = std::isfinite(across) ? std::clamp(across, -1.0F, 1.0F) : 0.0F;
-    // R is tilted by twice the angle of the scales, TT by once and TRT by four times it to the other side.
-    static constexpr float kTilt[] = {2, -1, -4, 0};
+    // The scales point to the tip, so that normals lean to the root: R goes there by twice their angle, TT by once and TRT
+    // by four times it the other way. Source: Marschner et al. 2003, table 1, for the sign (Chiang et al. leave it open).
+    static constexpr float kTilt[] = {-2, 1, 4, 0};
     const float tilt = std::isfinite(shift) ? shift * kTilt[static_cast<int>(path)] : 0.0F;
     sin_shift = std::sin(tilt);
     cos_shift = std::cos(tilt);
@@ -182,29 +183,6 @@ LobeSample HairLobe::sample(Vec3f wo, Vec2f u, float u_choice) const noexcept {
 }
 
 Color HairLobe::albedo(Vec3f wo) const noexcept { return peak(wo).attenuation; }
-
-FibreDiffuse::FibreDiffuse(Color reflectance) noexcept {
-    for (int c = 0; c < 3; ++c)
-        color[c] = within(reflectance[c], 0, 1);
-}
-
-LobeEval FibreDiffuse::eval(Vec3f, Vec3f wi) const noexcept {
-    const float pdf = safe_sqrt(1 - wi.x * wi.x) * (kInvPi * kInvPi);
-    return {color * pdf, pdf};
-}
-
-LobeSample FibreDiffuse::sample(Vec3f wo, Vec2f u, float u_choice) const noexcept {
-    // cos^2 along the fibre is a projected disk: x of a point in it, spread over both sides of the equator, is the sine.
-    const float radius = std::sqrt(u.x);
-    const float sin_i = std::clamp(radius * std::cos(2 * kPi * u.y), -1.0F, 1.0F);
-    const float cos_i = safe_sqrt(1 - sin_i * sin_i), phi = 2 * kPi * u_choice;
-    LobeSample out;
-    out.wi = {sin_i, cos_i * std::sin(phi), cos_i * std::cos(phi)};
-    const LobeEval e = eval(wo, out.wi);
-    out.f = e.f;
-    out.pdf = e.pdf;
-    return out;
-}
 
 Color hair_absorption_from_color(Color color, float azimuthal) noexcept {
     const float a = within(azimuthal, 0, 1);

@@ -61,20 +61,6 @@ struct HairLobe {
     [[nodiscard]] float density(const Peak& peak, Vec3f wi) const noexcept;
 };
 
-/// Light that a fibre scatters diffusely, event <RD'hair'>: as much in each direction around it, along it by the cosine
-/// to the cross-section. Source: Kajiya and Kay 1989, scaled to its albedo.
-struct FibreDiffuse {
-    Color color{0, 0, 0};
-
-    FibreDiffuse() = default;
-    /// Clamped to [0,1]; not finite becomes 0.
-    explicit FibreDiffuse(Color reflectance) noexcept;
-    [[nodiscard]] LobeEval eval(Vec3f wo, Vec3f wi) const noexcept;
-    [[nodiscard]] LobeSample sample(Vec3f wo, Vec2f u, float u_choice) const noexcept;
-    [[nodiscard]] Color albedo(Vec3f) const noexcept { return color; }
-    [[nodiscard]] bool delta() const noexcept { return false; }
-};
-
 /// Absorption of a fibre that shows `color` in bulk. Source: Chiang et al. 2016, eq. 9.
 /// color      (0,1]; darker is taken as nearly black
 /// azimuthal  roughness around the fibre, [0,1]

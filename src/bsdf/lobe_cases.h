@@ -159,8 +159,6 @@ inline GgxAlpha random_stretched_alpha(Random& random) {
                          false,
                          {},
                          1e-4F});
-    cases.push_back({"diffuse fibre", [](Random& r) { return FibreDiffuse(r.color()); }, false,
-                     [](Random&) { return FibreDiffuse(kWhite); }, 1e-5F});
     return cases;
 }
 

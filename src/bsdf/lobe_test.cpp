@@ -257,7 +257,6 @@ TEST(Lobe, EdgesOfParametersAreSane) {
                                          Color::grey(a), a, h));
                     expect_sane(HairLobe(path, {a, a}, ior, Color::grey(nan), 0.1F, h));
                 }
-        expect_sane(FibreDiffuse(Color::grey(a)));
         expect_sane(DiffuseReflect(kWhite, a));
         expect_sane(DiffuseTransmit(Color(nan, -1, 1), a));
     }

@@ -21,11 +21,11 @@ namespace lightsieve {
 /// One lobe; the first alternative is the cheapest to default-construct.
 using LobeModel = std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect,
                                DielectricTransmit, ThinTransmit, ConductorReflect, SchlickReflect,
-                               SheenReflect, HairLobe, FibreDiffuse>;
+                               SheenReflect, HairLobe>;
 
 /// Lobes of fibres have no sides: light from behind the shading normal counts as much.
 [[nodiscard]] inline bool has_no_sides(const LobeModel& model) noexcept {
-    return std::holds_alternative<HairLobe>(model) || std::holds_alternative<FibreDiffuse>(model);
+    return std::holds_alternative<HairLobe>(model);
 }
 
 static_assert(std::is_trivially_copyable_v<LobeModel>);

@@ -98,7 +98,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         if (from_camera) note_first_hit(surface, camera_from_world);
         if (!lights_only_) {
             add_emission();
-            gather_channels();
+            gather_channels(surface);
             if (scene_.plan.wants_probes && tracker_.live_probe()) add_probes();
         } else {
             n_channels_ = 0;
@@ -379,9 +379,10 @@ void Integrator<Tracker>::add_emission() {
 
 /// Lobes that make one event become one channel.
 template <class Tracker>
-void Integrator<Tracker>::gather_channels() {
+void Integrator<Tracker>::gather_channels(const Surface& surface) {
     n_channels_ = 0;
-    transmissive_ = false;
+    // The lobes of a fibre go round it, whatever side the ray sees.
+    transmissive_ = surface.at.on_curve;
     all_delta_ = true;
     const auto put = [&](std::size_t scatterer, const Channel& channel) {
         std::size_t c = 0;

@@ -31,7 +31,7 @@ struct OldHair {
         const HairFibre fibre(at, out);
         const float along = at.on_curve ? at.curve_uv.y : at.uv.y;
         const Color color = lerp(unit(rootcolor), unit(tipcolor), unit(along));
-        out.add(kDiffuse, FibreDiffuse(unit(ambdiff) * color), visible, fibre.frame, true);
+        out.add(kDiffuse, DiffuseReflect(unit(ambdiff) * color), visible, fibre.side_frame, true);
         const auto add = [&](int lobe, HairPath path, Color weight, float exponent, float shift) {
             HairWidth width = HairWidth::from_roughness(0, 0.3F);
             width.variance = 1 / std::max(positive(exponent), 1e-3F);
@@ -39,9 +39,9 @@ struct OldHair {
                     visible * weight, fibre.frame, true);
         };
         add(kReflection, HairPath::R, positive(spec) * positive(spec_color), gloss,
-            0.5F * spec_shift);
+            -0.5F * spec_shift);
         add(kSecond, HairPath::TRT, positive(spec2) * positive(spec2_color), gloss2,
-            -0.25F * spec2_shift);
+            0.25F * spec2_shift);
         add(kTransmission, HairPath::TT, positive(transmission) * positive(transmission_color),
             10 / std::max(positive(transmission_spread), 1e-2F), 0);
     }
@@ -86,7 +86,7 @@ NodeType OldHair::describe() {
     d.lobe(kTransmission, EventKind::Transmission, EventLobe::Specular, "hair",
            "Transmission through the fibre.");
     d.lobe(kSecond, EventKind::Reflection, EventLobe::Specular, "hair", "Second highlight.");
-    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "hair", "Diffuse fibre.");
+    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "hair", "Diffuse reflection by the side of the fibre.");
     return d.done();
 }
 

@@ -9,10 +9,14 @@
 
 namespace lightsieve {
 
-/// The four paths through a fibre and where they lie.
+/// The fibre at a hit, as lobes need it.
 struct HairFibre {
     std::uint8_t frame = 0;  ///< of the set: x along the fibre, z toward the viewer
-    float offset = 0;        ///< across, as HairLobe has it
+    /// Of the set: z is the normal of the round fibre where the ray met it, also on flat ribbons. For diffuse light: a
+    /// Lambertian cylinder (Zinke and Weber 2007, section 6). Arnold's hair is dark where only the floor behind it is lit
+    /// (reference picture test_0052), so its diffuse part has a side, unlike that of Kajiya and Kay.
+    std::uint8_t side_frame = 0;
+    float offset = 0;  ///< across, as HairLobe has it
 
     /// along  direction of the fibre, world space; 0 0 0: the hit's own
     HairFibre(const ShadePoint& at, ClosureSet& out, Vec3f along = {})
@@ -22,7 +26,10 @@ struct HairFibre {
         // Seen along itself a fibre shows no side: any will do.
         const Vec3f z = normalize(toward, at.normal);
         const Vec3f x = normalize(axis - z * dot(axis, z), at.tangent);
-        frame = out.add_frame({x, cross(z, x), z});
+        const Vec3f y = cross(z, x);
+        frame = out.add_frame({x, y, z});
+        const Vec3f side = y * offset + z * safe_sqrt(1 - offset * offset);
+        side_frame = out.add_frame({x, cross(side, x), side});
     }
 };
 

@@ -1,7 +1,7 @@
 // standard_hair: the fibre of hair and fur.
 //
 // The paths R, TT and TRT through the fibre by Chiang et al. 2016 (bsdf/hair.h), tinted each for itself, blended with a
-// diffuse fibre; every event carries the label "hair". Pigment and base colour both absorb.
+// diffuse one; every event carries the label "hair". Pigment and base colour both absorb.
 #include "nodes/shader/hair_common.h"
 #include "scene/describe.h"
 #include "scene/node_context.h"
@@ -31,7 +31,7 @@ struct StandardHair {
         const float diffuse_part = unit(diffuse);
         const HairFibre fibre(at, out);
         add_paths(at, fibre, visible * (1 - diffuse_part), out);
-        out.add(kDiffuse, FibreDiffuse(unit(diffuse_color)), visible * diffuse_part, fibre.frame,
+        out.add(kDiffuse, DiffuseReflect(unit(diffuse_color)), visible * diffuse_part, fibre.side_frame,
                 true);
         out.emit(kEmission, visible * (positive(emission) * positive(emission_color)));
     }
@@ -135,7 +135,7 @@ NodeType StandardHair::describe() {
            "Transmission through the fibre, TT.");
     d.lobe(kSecond, EventKind::Reflection, EventLobe::Specular, "hair",
            "Reflection inside of the fibre, TRT and longer paths.");
-    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "hair", "Diffuse fibre.");
+    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "hair", "Diffuse reflection by the side of the fibre.");
     d.lobe(kEmission, EventKind::Object, EventLobe::None, "hair", "Emission.");
     return d.done();
 }
