@@ -86,7 +86,8 @@ NodeType OldHair::describe() {
     d.lobe(kTransmission, EventKind::Transmission, EventLobe::Specular, "hair",
            "Transmission through the fibre.");
     d.lobe(kSecond, EventKind::Reflection, EventLobe::Specular, "hair", "Second highlight.");
-    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "hair", "Diffuse reflection by the side of the fibre.");
+    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "hair",
+           "Diffuse reflection by the side of the fibre.");
     return d.done();
 }
 

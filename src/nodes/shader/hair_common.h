@@ -4,6 +4,9 @@
 // direction of u, met in the middle.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "bsdf/closure.h"
 #include "nodes/shader/shader_common.h"
 
@@ -20,7 +23,9 @@ struct HairFibre {
 
     /// along  direction of the fibre, world space; 0 0 0: the hit's own
     HairFibre(const ShadePoint& at, ClosureSet& out, Vec3f along = {})
-        : offset(at.on_curve ? at.curve_offset : 0.0F) {
+        : offset(at.on_curve && std::isfinite(at.curve_offset)
+                     ? std::clamp(at.curve_offset, -1.0F, 1.0F)
+                     : 0.0F) {
         const Vec3f axis = normalize(along == Vec3f{} ? at.tangent : along, at.tangent);
         const Vec3f toward = at.wo - axis * dot(at.wo, axis);
         // Seen along itself a fibre shows no side: any will do.

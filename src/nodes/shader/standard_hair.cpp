@@ -31,8 +31,8 @@ struct StandardHair {
         const float diffuse_part = unit(diffuse);
         const HairFibre fibre(at, out);
         add_paths(at, fibre, visible * (1 - diffuse_part), out);
-        out.add(kDiffuse, DiffuseReflect(unit(diffuse_color)), visible * diffuse_part, fibre.side_frame,
-                true);
+        out.add(kDiffuse, DiffuseReflect(unit(diffuse_color)), visible * diffuse_part,
+                fibre.side_frame, true);
         out.emit(kEmission, visible * (positive(emission) * positive(emission_color)));
     }
 
@@ -135,7 +135,8 @@ NodeType StandardHair::describe() {
            "Transmission through the fibre, TT.");
     d.lobe(kSecond, EventKind::Reflection, EventLobe::Specular, "hair",
            "Reflection inside of the fibre, TRT and longer paths.");
-    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "hair", "Diffuse reflection by the side of the fibre.");
+    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "hair",
+           "Diffuse reflection by the side of the fibre.");
     d.lobe(kEmission, EventKind::Object, EventLobe::None, "hair", "Emission.");
     return d.done();
 }
