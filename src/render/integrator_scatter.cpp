@@ -206,9 +206,14 @@ bool Integrator<Tracker>::survives_roulette() {
     return true;
 }
 
-#define LIGHTSIEVE_SCATTER(Tracker)                            \
-    template void Integrator<Tracker>::choose_probabilities(); \
-    template bool Integrator<Tracker>::scatter(const Surface&, Ray&);
+// Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
+#define LIGHTSIEVE_SCATTER(Tracker)                                                      \
+    template void Integrator<Tracker>::choose_probabilities();                           \
+    template std::optional<std::size_t> Integrator<Tracker>::draw(float) const;          \
+    template bool Integrator<Tracker>::scatter(const Surface&, Ray&);                    \
+    template bool Integrator<Tracker>::advance(std::span<const Color>, std::size_t);     \
+    template bool Integrator<Tracker>::scatter_below(const Surface&, std::size_t, Ray&); \
+    template bool Integrator<Tracker>::survives_roulette();
 LIGHTSIEVE_SCATTER(AovTracker)
 LIGHTSIEVE_SCATTER(LogTracker)
 #undef LIGHTSIEVE_SCATTER
