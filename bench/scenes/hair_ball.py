@@ -57,7 +57,7 @@ def write(path: Path, n_strands: int = 100_000, resolution: int = 512) -> None:
                 position=(0, 0.3, 4.6),
                 look_at=(0, -0.1, 0),
                 up=(0, 1, 0),
-                fov=40,
+                fov=46,
             )
         )
         out.write(

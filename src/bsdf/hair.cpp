@@ -13,6 +13,8 @@ constexpr float kMinVariance = 2e-5F, kMinScale = 2e-3F;
 /// Wider along than this M_p is uniform, wider around so is N_p.
 constexpr float kMaxVariance = 100, kMaxScale = 100;
 constexpr float kMaxIor = 4;
+/// Far tails are left out: products with them leave the range of floats.
+constexpr float kLeastDensity = 1e-20F;
 /// Thicker than black.
 constexpr float kMaxAbsorption = 1e4F;
 constexpr float kLeastMelaninLeft = 1e-4F;
@@ -150,9 +152,12 @@ float HairLobe::density(const Peak& at, Vec3f wi) const noexcept {
     const float along = std::exp(-distance / (2 * v)) *
                         scaled_bessel_i0(cos_i * at.cos_theta / v) / (v * -std::expm1(-2 / v));
     // Around. Source: Chiang et al. 2016, eq. 11; what is left after TRT has no direction.
-    if (path == HairPath::Rest) return along * (0.5F * kInvPi);
-    const float phi = std::atan2(wi.y, wi.z);
-    return along * trimmed_logistic(wrapped(phi - at.phi), width.scale);
+    const float around =
+        path == HairPath::Rest
+            ? 0.5F * kInvPi
+            : trimmed_logistic(wrapped(std::atan2(wi.y, wi.z) - at.phi), width.scale);
+    const float out = along * around;
+    return out > kLeastDensity ? out : 0.0F;
 }
 
 LobeEval HairLobe::eval(Vec3f wo, Vec3f wi) const noexcept {

@@ -91,6 +91,11 @@ void Compiler::fill_records() {
             shader->records[i].exit_to_background = exits;
             if (shader->records[i].lobe == EventLobe::Specular)
                 shader->records[i].extra_depth = extra_depth_of(*shader);
+            // Through a fibre goes a specular ray: it is in no body, and its depth and what lights give it are those of
+            // highlights (extra_depth is one number for all). The event stays a transmission.
+            if (const LobeInfo& lobe = shader->type().lobes[i];
+                lobe.label == "hair" && lobe.kind == EventKind::Transmission)
+                shader->records[i].kind = EventKind::Reflection;
             shader->records[i].subsurface = shader->type().lobes[i].below_surface && !thin;
         }
         if (shader->type().eval_closure == nullptr)

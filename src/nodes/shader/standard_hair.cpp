@@ -62,6 +62,33 @@ struct StandardHair {
 
 using S = StandardHair;
 
+void describe_light(Describe<S>& d) {
+    d.param("specular_tint", &S::specular_tint, "Factor on the first highlight, R.").range(0, 1);
+    d.param("specular2_tint", &S::specular2_tint, "Factor on the coloured highlight, TRT.")
+        .range(0, 1);
+    d.param("transmission_tint", &S::transmission_tint,
+            "Factor on light that passes through the fibre, TT.")
+        .range(0, 1);
+    d.param("diffuse", &S::diffuse,
+            "From specular (0) to wholly diffuse (1), for dirt and plants.")
+        .range(0, 1);
+    d.param("diffuse_color", &S::diffuse_color, "Reflectance of the diffuse part.").range(0, 1);
+    d.param("emission", &S::emission, "Weight of the emission.").range(0, kInfinity);
+    d.param("emission_color", &S::emission_color, "Radiance emitted.");
+    d.param("opacity", &S::opacity, "Below 1, rays pass straight through for the rest.")
+        .range(0, 1);
+    d.param("extra_depth", &S::extra_depth,
+            "Bounces that highlights and transmission may make beyond GI_specular_depth.")
+        .range(0, 100);
+    d.param("extra_samples", &S::extra_samples, "Arnold's further rays a hit.").ignored();
+    d.param("indirect_diffuse", &S::indirect_diffuse,
+            "Factor on indirect light of the diffuse part.")
+        .pending();
+    d.param("indirect_specular", &S::indirect_specular,
+            "Factor on indirect light of the highlights.")
+        .pending();
+}
+
 void describe_ids(Describe<S>& d) {
     d.param("aov_id1", &S::aov_id1, "AOV into which id1 is written.").pending();
     d.param("id1", &S::id1, "Colour for aov_id1.").ignored();
@@ -103,31 +130,7 @@ NodeType StandardHair::describe() {
     d.param("shift", &S::shift, "Tilt of the scales on the fibre toward its root.")
         .unit("degrees")
         .range(0, 20);
-    d.param("specular_tint", &S::specular_tint, "Factor on the first highlight, R.").range(0, 1);
-    d.param("specular2_tint", &S::specular2_tint, "Factor on the coloured highlight, TRT.")
-        .range(0, 1);
-    d.param("transmission_tint", &S::transmission_tint,
-            "Factor on light that passes through the fibre, TT.")
-        .range(0, 1);
-    d.param("diffuse", &S::diffuse,
-            "From specular (0) to wholly diffuse (1), for dirt and plants.")
-        .range(0, 1);
-    d.param("diffuse_color", &S::diffuse_color, "Reflectance of the diffuse part.").range(0, 1);
-    d.param("emission", &S::emission, "Weight of the emission.").range(0, kInfinity);
-    d.param("emission_color", &S::emission_color, "Radiance emitted.");
-    d.param("opacity", &S::opacity, "Below 1, rays pass straight through for the rest.")
-        .range(0, 1);
-    d.param("extra_depth", &S::extra_depth,
-            "Bounces that the highlights may make beyond GI_specular_depth and "
-            "GI_transmission_depth.")
-        .range(0, 100);
-    d.param("extra_samples", &S::extra_samples, "Arnold's further rays a hit.").ignored();
-    d.param("indirect_diffuse", &S::indirect_diffuse,
-            "Factor on indirect light of the diffuse part.")
-        .pending();
-    d.param("indirect_specular", &S::indirect_specular,
-            "Factor on indirect light of the highlights.")
-        .pending();
+    describe_light(d);
     describe_ids(d);
     d.lobe(kReflection, EventKind::Reflection, EventLobe::Specular, "hair",
            "Reflection by the surface of the fibre, R.");
