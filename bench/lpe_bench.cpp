@@ -1,8 +1,13 @@
-// How fast light path expressions are: compiling all built-ins for 0, 8 and 64 light groups, and
-// stepping random paths.
+// How fast light path expressions are: compiling all built-ins for 0, 8 and 64 light groups,
+// stepping random paths, what explodes, and what is left over of the beauty.
 //
 // Prints one line per case: best of many runs, since the machine has other work. Aims: built-ins
-// below 1 ms, with 64 groups below 10 ms, a step below 2.5 ns.
+// below 1 ms, with 64 groups below 10 ms, a step below 2.5 ns; whatever explodes ends within 2 s
+// and 1 GiB; a rest within 50 ms.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -12,7 +17,10 @@
 
 #include "lpe/builtins.h"
 #include "lpe/light_groups.h"
+#include "lpe/print.h"
 #include "lpe/program.h"
+#include "lpe/rest.h"
+#include "lpe/testing/generate.h"
 
 namespace {
 
@@ -137,6 +145,66 @@ void bench(std::size_t n_groups, unsigned& checksum) {
                 chain_ns(program, checksum));
 }
 
+/// Compiles in a process of its own, so that its peak memory is its own.
+void explode(const char* name, const std::vector<AovRequest>& aovs) {
+    std::fflush(stdout);
+    const pid_t child = fork();
+    if (child != 0) {
+        waitpid(child, nullptr, 0);
+        return;
+    }
+    Diagnostics diagnostics;
+    const Clock::time_point start = Clock::now();
+    const Program program = Program::compile(aovs, scene_events({}), {}, diagnostics);
+    const double seconds = seconds_since(start);
+    std::size_t n_states = 0;
+    for (std::size_t i = 0; i < program.n_automata(); ++i)
+        n_states += program.automaton(i).n_inner_states();
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    std::printf("%-28s %8.3f s %6ld MiB %9zu %9zu %7zu\n", name, seconds, usage.ru_maxrss / 1024,
+                program.n_automata(), n_states, diagnostics.n_errors());
+    std::fflush(stdout);
+    _exit(0);
+}
+
+void bench_explosions() {
+    std::printf("\n%-28s %10s %10s %9s %9s %7s\n", "explosion", "time", "peak", "automata",
+                "states", "refused");
+    for (const char* text : {"C.*D.{11}L", "C.*D.{20}L", "C(((D?){16}){16}){16}L"})
+        explode(text, {{"x", testing::must_parse(text)}});
+    std::mt19937 random(7);
+    std::vector<AovRequest> many;
+    for (int i = 0; i < 1000; ++i)
+        many.push_back({"aov" + std::to_string(i),
+                        testing::random_light_expression(random, 4 + random() % 12)});
+    explode("1000 random expressions", many);
+}
+
+/// What every subset of the additive sets leaves over.
+void bench_rest(unsigned& checksum) {
+    const ExpressionTable table;
+    const Expr beauty = table.find("RGBA")->expr;
+    double total = 0, worst = 0;
+    std::size_t n = 0, longest = 0;
+    for (const auto& set : additive_sets(BuiltinTable::Reference))
+        for (std::size_t chosen = 0; chosen < (std::size_t{1} << set.size()); ++chosen) {
+            std::vector<Expr> parts;
+            for (std::size_t i = 0; i < set.size(); ++i)
+                if ((chosen >> i & 1U) != 0) parts.push_back(table.find(set[i])->expr);
+            const Clock::time_point start = Clock::now();
+            const std::string text = print(rest(beauty, parts));
+            const double seconds = seconds_since(start);
+            total += seconds;
+            worst = std::max(worst, seconds);
+            longest = std::max(longest, text.size());
+            checksum += static_cast<unsigned>(text.size());
+            ++n;
+        }
+    std::printf("\nrest of %zu subsets: mean %.3f ms, worst %.3f ms, longest %zu characters\n", n,
+                total / static_cast<double>(n) * 1e3, worst * 1e3, longest);
+}
+
 }  // namespace
 
 int main() {
@@ -144,6 +212,8 @@ int main() {
     std::printf("groups   AOVs compile_ms states classes    atoms   bytes  ns/event  chain_ns\n");
     for (const std::size_t n_groups : {0U, 8U, 64U})
         bench(n_groups, checksum);
+    bench_explosions();
+    bench_rest(checksum);
     // Printed so that nothing above can be left out.
     std::printf("checksum %u\n", checksum);
     return 0;

@@ -14,7 +14,8 @@ HEADER = """\
 #   red torus knot     base and clear coat                    diffuse, coat
 #   blue ball          cloth                                  sheen
 #   copper ball        rough metal                            specular
-#   glass ball         refraction                             transmission, caustics off
+#   glass ball         refraction, an interior that tints     transmission, caustics off
+#   jade ball          closures with labels                   sss (walks below the surface), sss_jade
 #   tinted pane        thin-walled glass, the sky behind it   transmission_direct
 #   paper lamp         thin-walled, lit from inside           sss (diffuse transmission), opacity
 #   filament           emissive shape inside the lamp         emission (O)
@@ -308,7 +309,31 @@ standard_surface
  specular_roughness 0
  specular_IOR 1.5
  transmission 1
- transmission_color 0.9 0.97 0.95
+ transmission_color 0.75 0.93 0.88
+ transmission_depth 0.72
+}
+
+subsurface_bsdf
+{
+ name jade_body
+ color 0.4 0.78 0.5
+ radius 0.16 0.12 0.06
+ label "jade"
+}
+
+dielectric_bsdf
+{
+ name jade_polish
+ roughness 0.01 0.01
+ ior 1.6
+ label "polish"
+}
+
+layer
+{
+ name jade_shader
+ top "jade_polish"
+ base "jade_body"
 }
 
 standard_surface
@@ -378,6 +403,14 @@ sphere
  shader "glass_shader"
 }
 
+sphere
+{
+ name jade_ball
+ center 0.1 0.2 1.45
+ radius 0.2
+ shader "jade_shader"
+}
+
 polymesh
 {
  name pane
@@ -404,7 +437,7 @@ RGBA_* direct indirect emission background
 diffuse diffuse_direct diffuse_indirect specular specular_direct specular_indirect
 coat coat_direct coat_indirect sheen sheen_direct sheen_indirect
 transmission transmission_direct transmission_indirect sss sss_direct sss_indirect
-albedo denoise_albedo diffuse_albedo specular_albedo coat_albedo sheen_albedo transmission_albedo sss_albedo
+sss_jade albedo denoise_albedo diffuse_albedo specular_albedo coat_albedo sheen_albedo transmission_albedo sss_albedo
 reflections
 """
 
@@ -419,7 +452,9 @@ def outputs() -> str:
         "ID UINT closest exr",
     ]
     lines = "\n".join(f'  "{s}"' for s in strings)
-    return f""" light_path_expressions "reflections C<RS>+[LOB]"
+    return f""" light_path_expressions 2 1 STRING
+  "reflections C<RS>+[LOB]"
+  "sss_jade C<TD'jade'>.*"
  outputs {len(strings)} 1 STRING
 {lines}
 """

@@ -549,6 +549,28 @@ class CompiledScene:
     def summary(self) -> SceneSummary:
         """What the scene holds; only if it is usable."""
 
+    @property
+    def events(self) -> list[str]:
+        """
+        Every event that its paths can be made of, as text; only if it is usable.
+        """
+
+    @property
+    def definitions(self) -> list[tuple[str, str]]:
+        """
+        Name and text of the expressions that it defines; only if it is usable.
+        """
+
+    @property
+    def lpe_table(self) -> str:
+        """`reference` or `arnold7`; only if it is usable."""
+
+    @property
+    def layer_samples(self) -> list[tuple[int, int]]:
+        """
+        Two numbers a layer of the summary: layers with the same two are sums of the same samples and can be added up.
+        """
+
     def render(self, progress: Callable[[RenderProgress], object] | None = None) -> Outcome:
         """
         Renders; Ctrl-C ends it early. `progress` is called about ten times a second.

@@ -145,6 +145,17 @@ inline GgxAlpha random_stretched_alpha(Random& random) {
              return SchlickReflect(alpha, facing, kWhite, r.color());
          },
          false, [](Random& r) { return SchlickReflect(random_alpha(r), kWhite, kWhite); }, 1e-2F});
+    cases.push_back({"film on a metal",
+                     [](Random& r) {
+                         const GgxAlpha alpha = random_alpha(r);
+                         const float thickness = r.between(0, 1000);
+                         const Color n = r.color();
+                         return FilmReflect(alpha, thickness, r.between(1.1F, 2.2F), n,
+                                            r.color() * 4);
+                     },
+                     false,
+                     {},
+                     3e-2F});
     cases.push_back({"sheen", [](Random& r) { return SheenReflect(r.between(0.1F, 1)); }, true});
     static constexpr std::array kPaths{HairPath::R, HairPath::TT, HairPath::TRT, HairPath::Rest};
     for (const HairPath path : kPaths)

@@ -249,6 +249,8 @@ TEST(Lobe, EdgesOfParametersAreSane) {
         }
         expect_sane(ThinTransmit(alpha));
         expect_sane(ThinTransmit(stretched));
+        for (const float thickness : {0.0F, 300.0F, a})
+            expect_sane(FilmReflect(alpha, thickness, a, Color::grey(a), Color(1, a, 0)));
         expect_sane(SheenReflect(a));
         for (const float h : {-2.0F, -1.0F, 0.0F, 0.9F, nan})
             for (const HairPath path : {HairPath::R, HairPath::TT, HairPath::TRT, HairPath::Rest})

@@ -14,14 +14,15 @@
 #include "bsdf/hair.h"
 #include "bsdf/schlick.h"
 #include "bsdf/sheen.h"
+#include "bsdf/thin_film.h"
 #include "bsdf/thin_transmit.h"
 
 namespace lightsieve {
 
 /// One lobe; the first alternative is the cheapest to default-construct.
-using LobeModel =
-    std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit,
-                 ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect, HairLobe>;
+using LobeModel = std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect,
+                               DielectricTransmit, ThinTransmit, ConductorReflect, SchlickReflect,
+                               SheenReflect, FilmReflect, HairLobe>;
 
 /// Lobes of fibres have no sides: light from behind the shading normal counts as much.
 [[nodiscard]] inline bool has_no_sides(const LobeModel& model) noexcept {

@@ -62,24 +62,34 @@ struct AllLabelUses {
     }
 };
 
-/// One label for each set of labels that are alike, one that may be an object label where there is
+/// The labels that are alike, together; the first is one that may be an object label where there is
 /// one.
-std::vector<std::string> distinct_labels(const LabelUses& uses, std::size_t limit) {
-    std::map<std::vector<std::size_t>, std::string> by_use;
+std::vector<std::vector<std::string>> alike(const LabelUses& uses) {
+    std::map<std::vector<std::size_t>, std::vector<std::string>> by_use;
     for (const auto& [label, use] : uses) {
-        const auto [entry, is_new] = by_use.emplace(use, label);
-        if (!is_new && !may_be_object_label(entry->second) && may_be_object_label(label))
-            entry->second = label;
+        std::vector<std::string>& labels = by_use[use];
+        labels.push_back(label);
+        if (!may_be_object_label(labels.front()) && may_be_object_label(label))
+            std::swap(labels.front(), labels.back());
     }
-    if (by_use.size() > limit)
+    std::vector<std::vector<std::string>> classes;
+    for (auto& [use, labels] : by_use)
+        classes.push_back(std::move(labels));
+    std::ranges::sort(classes);
+    return classes;
+}
+
+/// One label of each class.
+std::vector<std::string> distinct_labels(const LabelUses& uses, std::size_t limit) {
+    const std::vector<std::vector<std::string>> classes = alike(uses);
+    if (classes.size() > limit)
         throw InputError(OverBudget{
             Code::LimitLpeLabels,
-            "would have to tell " + std::to_string(by_use.size()) + " labels apart", "max_labels"}
+            "would have to tell " + std::to_string(classes.size()) + " labels apart", "max_labels"}
                              .error("the proof", {}));
     std::vector<std::string> labels;
-    for (const auto& [use, label] : by_use)
-        labels.push_back(label);
-    std::ranges::sort(labels);
+    for (const std::vector<std::string>& same : classes)
+        labels.push_back(same.front());
     return labels;
 }
 
@@ -181,15 +191,24 @@ class Search {
 /// Any path that the first expression takes.
 bool any(const std::vector<bool>&, const Event&) { return true; }
 
-std::optional<Path> search(std::initializer_list<Expr> exprs, const Wanted& wanted,
-                           const Limits& limits) {
+/// Paths that a takes and b takes too, or does not.
+bool in_both(const std::vector<bool>& taken, const Event&) { return taken[1]; }
+bool in_first_only(const std::vector<bool>& taken, const Event&) { return !taken[1]; }
+
+std::optional<Path> search(std::initializer_list<Expr> exprs, std::span<const Event> events,
+                           const Wanted& wanted, const Limits& limits) {
     if (!*exprs.begin()) return std::nullopt;
-    const std::span<const Expr> all(exprs.begin(), exprs.size());
     try {
-        return Search(all, abstract_events(all, limits), limits).run(wanted);
+        return Search({exprs.begin(), exprs.size()}, events, limits).run(wanted);
     } catch (const OverBudget& over) {
         throw InputError(over.error("the proof", (*exprs.begin())->where));
     }
+}
+
+std::optional<Path> search(std::initializer_list<Expr> exprs, const Wanted& wanted,
+                           const Limits& limits) {
+    const std::span<const Expr> all(exprs.begin(), exprs.size());
+    return search(exprs, abstract_events(all, limits), wanted, limits);
 }
 
 }  // namespace
@@ -223,28 +242,26 @@ std::vector<Event> abstract_events(std::span<const Expr> exprs, const Limits& li
     return events;
 }
 
+LabelClasses label_classes(std::span<const Expr> exprs) {
+    const AllLabelUses uses(exprs);
+    return {alike(uses.lobes), alike(uses.groups)};
+}
+
 std::optional<Path> shortest_path(const Expr& expr, const Limits& limits) {
     return search({expr}, any, limits);
 }
 
 std::optional<Path> shortest_path(const Expr& expr, std::span<const Event> events,
                                   const Limits& limits) {
-    if (!expr) return std::nullopt;
-    try {
-        return Search({&expr, 1}, events, limits).run(any);
-    } catch (const OverBudget& over) {
-        throw InputError(over.error("the proof", expr->where));
-    }
+    return search({expr}, events, any, limits);
 }
 
 std::optional<Path> shortest_common_path(const Expr& a, const Expr& b, const Limits& limits) {
-    const auto both = [](const std::vector<bool>& taken, const Event&) { return bool{taken[1]}; };
-    return search({a, b}, both, limits);
+    return search({a, b}, in_both, limits);
 }
 
 std::optional<Path> shortest_path_outside(const Expr& a, const Expr& b, const Limits& limits) {
-    const auto not_b = [](const std::vector<bool>& taken, const Event&) { return !taken[1]; };
-    return search({a, b}, not_b, limits);
+    return search({a, b}, in_first_only, limits);
 }
 
 bool equivalent(const Expr& a, const Expr& b, const Limits& limits) {
@@ -265,8 +282,32 @@ bool takes_probe(const Expr& expr, const Limits& limits) {
     return search({expr}, is_probe, limits).has_value();
 }
 
-PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
-                                const Limits& limits) {
+Comparison compare(const Expr& a, const Expr& b, std::span<const Event> events,
+                   const Limits& limits) {
+    Comparison out;
+    out.only_a = search({a, b}, events, in_first_only, limits);
+    out.only_b = search({b, a}, events, in_first_only, limits);
+    out.both = search({a, b}, events, in_both, limits);
+    if (!out.only_a && !out.only_b)
+        out.relation = Relation::Equal;
+    else if (!out.only_a)
+        out.relation = Relation::Subset;
+    else if (!out.only_b)
+        out.relation = Relation::Superset;
+    else
+        out.relation = out.both ? Relation::Overlapping : Relation::Disjoint;
+    return out;
+}
+
+Comparison compare(const Expr& a, const Expr& b, const Limits& limits) {
+    return compare(a, b, abstract_events(std::array{a, b}, limits), limits);
+}
+
+namespace {
+
+/// Proves it with `find(exprs, wanted)`, which searches for a path.
+template <class Find>
+PartitionReport partition_by(const Expr& whole, std::span<const Expr> parts, const Find& find) {
     PartitionReport report;
     const auto keep_shortest = [&](PartitionReport::Fault fault, std::optional<Path> witness,
                                    std::size_t first = 0, std::size_t second = 0) {
@@ -278,13 +319,31 @@ PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
     for (const Expr& part : parts)
         if (part) all.parts.push_back(part);
     const Expr sum = std::make_shared<const Node>(Node{std::move(all), {}});
-    keep_shortest(PartitionReport::Fault::Lost, shortest_path_outside(whole, sum, limits));
+    keep_shortest(PartitionReport::Fault::Lost, find({whole, sum}, in_first_only));
     for (std::size_t i = 0; i < parts.size(); ++i)
         for (std::size_t j = i + 1; j < parts.size(); ++j)
-            keep_shortest(PartitionReport::Fault::Twice,
-                          shortest_common_path(parts[i], parts[j], limits), i, j);
-    keep_shortest(PartitionReport::Fault::Outside, shortest_path_outside(sum, whole, limits));
+            keep_shortest(PartitionReport::Fault::Twice, find({parts[i], parts[j]}, in_both), i,
+                          j);
+    keep_shortest(PartitionReport::Fault::Outside, find({sum, whole}, in_first_only));
     return report;
+}
+
+}  // namespace
+
+PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
+                                std::span<const Event> events, const Limits& limits) {
+    return partition_by(whole, parts,
+                        [&](std::initializer_list<Expr> exprs, const Wanted& wanted) {
+                            return search(exprs, events, wanted, limits);
+                        });
+}
+
+PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
+                                const Limits& limits) {
+    return partition_by(whole, parts,
+                        [&](std::initializer_list<Expr> exprs, const Wanted& wanted) {
+                            return search(exprs, wanted, limits);
+                        });
 }
 
 }  // namespace lightsieve::lpe

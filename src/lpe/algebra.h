@@ -29,6 +29,14 @@ namespace lightsieve::lpe {
 [[nodiscard]] std::vector<Event> abstract_events(std::span<const Expr> exprs,
                                                  const Limits& limits = {});
 
+/// Labels that these expressions treat alike stand for one another in `abstract_events`.
+struct LabelClasses {
+    /// Of lobes (and emitters), and of lights; the first of each class is the one that
+    /// `abstract_events` uses.
+    std::vector<std::vector<std::string>> lobes{}, groups{};
+};
+[[nodiscard]] LabelClasses label_classes(std::span<const Expr> exprs);
+
 /// A shortest path that the expression takes; nothing if it takes none.
 [[nodiscard]] std::optional<Path> shortest_path(const Expr& expr, const Limits& limits = {});
 /// The same among the paths made of these events only.
@@ -42,6 +50,27 @@ namespace lightsieve::lpe {
                                                         const Limits& limits = {});
 /// Do both take exactly the same paths?
 [[nodiscard]] bool equivalent(const Expr& a, const Expr& b, const Limits& limits = {});
+
+/// How the paths of two expressions lie to one another.
+enum class Relation : std::uint8_t {
+    Equal,        ///< the same paths (maybe none)
+    Subset,       ///< a takes a part of what b takes
+    Superset,     ///< b takes a part of what a takes
+    Overlapping,  ///< some in common, and each some of its own
+    Disjoint,     ///< none in common
+};
+
+struct Comparison {
+    Relation relation = Relation::Equal;
+    /// A shortest path of each region that is not empty.
+    std::optional<Path> only_a{}, only_b{}, both{};
+};
+
+/// Compares over all paths. An expression that takes none is a subset of every other.
+[[nodiscard]] Comparison compare(const Expr& a, const Expr& b, const Limits& limits = {});
+/// The same among the paths made of these events only (a scene's).
+[[nodiscard]] Comparison compare(const Expr& a, const Expr& b, std::span<const Event> events,
+                                 const Limits& limits = {});
 
 /// Does the expression take a path that ends with light (L, O, B)?
 [[nodiscard]] bool takes_light(const Expr& expr, const Limits& limits = {});
@@ -65,6 +94,10 @@ struct PartitionReport {
 
 /// Proves that `parts` partition `whole`, or finds a shortest path that shows that they do not.
 [[nodiscard]] PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
+                                              const Limits& limits = {});
+/// The same among the paths made of these events only.
+[[nodiscard]] PartitionReport check_partition(const Expr& whole, std::span<const Expr> parts,
+                                              std::span<const Event> events,
                                               const Limits& limits = {});
 
 }  // namespace lightsieve::lpe

@@ -99,8 +99,30 @@ struct Repeat {
     std::uint32_t max = kUnbounded;
 };
 
+// ---- what we add to Arnold's language (docs/lpe-language.md, "Extensions") ----
+
+/// `a & b`: two or more parts, all of which must take it.
+struct Intersection {
+    std::vector<Expr> parts;
+};
+/// `a - b - c`: what the first part takes and none of the others.
+struct Difference {
+    std::vector<Expr> parts;
+};
+/// `!(a)`: the light paths that `a` does not take, the same as `(C.* - (a))`.
+struct Complement {
+    Expr body;
+};
+/// `$name`: the expression of another AOV, as a group.
+struct Reference {
+    std::string name;
+    Expr body;  ///< what the name stands for, shared with its owner; null until it is resolved
+};
+
 struct Node {
-    std::variant<Letter, Dot, Label, Angle, Brackets, Sequence, Alternation, Repeat> form;
+    std::variant<Letter, Dot, Label, Angle, Brackets, Sequence, Alternation, Repeat, Intersection,
+                 Difference, Complement, Reference>
+        form;
     SourceSpan where{};  ///< the node's text; unknown for trees that were built, not read
 };
 
@@ -110,7 +132,8 @@ struct Node {
 /// Does the node test a single event (a letter, `.`, a label, `<..>`, `[..]`)?
 [[nodiscard]] bool is_event_test(const Node& node);
 
-/// What the node is directly made of; nothing for a letter, `.`, a label and `<..>`.
+/// What the node is directly made of; nothing for a letter, `.`, a label, `<..>` and a reference that
+/// was not resolved. The child of a reference is written elsewhere: its places are in that text.
 [[nodiscard]] std::span<const Expr> children(const Node& node);
 
 /// Calls `visit(node)` for the node and everything below it, parents first, left to right.
@@ -119,6 +142,15 @@ void for_each_node(const Node& node, const Visit& visit) {
     visit(node);
     for (const Expr& child : children(node))
         for_each_node(*child, visit);
+}
+
+/// The same without what references stand for: only what is written in this text.
+template <class Visit>
+void for_each_written_node(const Node& node, const Visit& visit) {
+    visit(node);
+    if (std::holds_alternative<Reference>(node.form)) return;
+    for (const Expr& child : children(node))
+        for_each_written_node(*child, visit);
 }
 
 /// Calls `visit(test)` for every test of a single event, left to right; `[..]` is one test, not

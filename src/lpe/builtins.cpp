@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "lpe/cursor.h"
 #include "lpe/lint.h"
 #include "lpe/parse.h"
+#include "lpe/references.h"
 
 namespace lightsieve::lpe {
 namespace {
@@ -124,13 +126,19 @@ void ExpressionTable::define(std::string_view definition, const SourceSpan& base
     const std::string_view text = definition.substr(begin);
     // The expression's place is a part of the definition's, if that holds the text byte for byte.
     const SourceSpan where = in.span(begin, definition.size());
-    Expr expr = parse(text, where, diagnostics, {.aov_name = written});
+    Expr expr = parse(text, where, diagnostics,
+                      {.aov_name = written, .standard = standard_, .keep_references = true});
+    Expr unresolved = has_unresolved(expr) ? std::exchange(expr, nullptr) : nullptr;
     lint_expression(text, where, written, expr, diagnostics);
     const auto known = entries_.find(name);
     if (known != entries_.end() && known->second.is_custom)
         return in.error(Code::LpeTwice, "AOV " + in_quotes(written) + " is defined twice",
                         name_begin, name_end, "keep one of the two, or rename one");
-    entries_.insert_or_assign(name, Entry{{name, std::string(text), std::move(expr)}, true});
+    entries_.insert_or_assign(name, Entry{{name, std::string(text), std::move(expr)},
+                                          true,
+                                          std::string(written),
+                                          where,
+                                          std::move(unresolved)});
 }
 
 const NamedExpr* ExpressionTable::find(std::string_view name) const {

@@ -56,6 +56,9 @@ class ExpressionTable {
   public:
     explicit ExpressionTable(BuiltinTable table = BuiltinTable::Reference);
 
+    /// Refuse what we add to Arnold's language in every `define` from now on (lpe-standard).
+    void require_standard() { standard_ = true; }
+
     /// Adds one string of options.light_path_expressions, "name expression", split at the first
     /// white space.
     ///
@@ -63,8 +66,15 @@ class ExpressionTable {
     /// base         where it stands, see `parse`
     /// diagnostics  gets syntax errors, lints, a second definition of the name, a missing
     ///              expression
-    /// An expression with an error is kept with a null tree: its AOV is black, not unknown.
+    /// An expression with an error is kept with a null tree: its AOV is black, not unknown. So is
+    /// one that names others (`$name`) until `resolve`.
     void define(std::string_view definition, const SourceSpan& base, Diagnostics& diagnostics);
+    /// Puts in what `$name` stands for, in whatever order the expressions were defined. Call it once
+    /// after the last `define`.
+    ///
+    /// diagnostics  gets unknown names, cycles (also of a custom expression with itself, even if a
+    ///              built-in has its name), and the lints of the expressions that name others
+    void resolve(Diagnostics& diagnostics);
 
     /// The expression of that name (`RGB` finds `RGBA`), or null. The pointer lives until the next
     /// `define`.
@@ -79,8 +89,13 @@ class ExpressionTable {
     struct Entry {
         NamedExpr named;
         bool is_custom;
+        std::string written{};  ///< the name as the definition writes it
+        SourceSpan where{};     ///< of the text
+        Expr unresolved{};  ///< with references whose bodies are null; null: nothing to resolve
     };
+    friend class ReferenceResolver;
     BuiltinTable table_;
+    bool standard_ = false;
     std::map<std::string, Entry, std::less<>> entries_;
 };
 

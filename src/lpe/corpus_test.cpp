@@ -82,7 +82,7 @@ void check_verdicts(const Expr& expr, const TomlEntry& entry) {
 void check_case(const TomlEntry& entry) {
     const std::string text = entry.text("expression");
     Diagnostics diagnostics;
-    const Expr expr = parse(text, diagnostics);
+    const Expr expr = parse(text, SourceSpan{}, diagnostics, {.standard = entry.has("standard")});
     EXPECT_EQ(found_reports(diagnostics, Severity::Error), expected_reports(entry, "errors"))
         << diagnostics.render();
     EXPECT_EQ(expr == nullptr, diagnostics.has_errors());

@@ -12,9 +12,7 @@ namespace lightsieve::lpe {
 namespace {
 
 bool is_small(char c) { return c >= 'a' && c <= 'z'; }
-bool is_word(char c) {
-    return is_small(c) || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
+bool is_word(char c) { return is_name_character(c); }
 
 /// Characters of other alphabets that look like one of the language.
 struct LookAlike {
@@ -61,6 +59,10 @@ constexpr std::array kLookAlikes{
     LookAlike{0x203A, '>'},
     LookAlike{0x2024, '.'},
     LookAlike{0x2223, '|'},
+    LookAlike{0x2010, '-'},
+    LookAlike{0x2013, '-'},
+    LookAlike{0x2014, '-'},
+    LookAlike{0x2212, '-'},
 };
 
 /// The character that `code_point` looks like, or '\0'.
@@ -100,6 +102,10 @@ std::string punctuation_hint(char c) {
 
 }  // namespace
 
+bool is_name_character(char c) {
+    return is_small(c) || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
 std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 std::string letter_hint(std::string_view letters) {
@@ -130,6 +136,11 @@ bool Cursor::take_if(char c) {
     if (at_end() || text_[position_] != c) return false;
     ++position_;
     return true;
+}
+
+bool Cursor::starts_reference() const {
+    if (at_end() || text_[position_] != '$' || position_ + 1 >= text_.size()) return false;
+    return text_[position_ + 1] == '{' || is_name_character(text_[position_ + 1]);
 }
 
 bool Cursor::skip_blanks() {

@@ -33,6 +33,8 @@ class Cursor {
     char take() { return text_[position_++]; }
     /// Takes `c` if it is next.
     bool take_if(char c);
+    /// Is a `$name` or `${name}` next? A `$` alone is not.
+    [[nodiscard]] bool starts_reference() const;
     /// Skips white space; returns whether there was any.
     bool skip_blanks();
 
@@ -78,6 +80,9 @@ class Cursor {
     std::size_t n_errors_ = 0;
     bool abandoned_ = false;
 };
+
+/// Can it stand in a `$name` without braces?
+[[nodiscard]] bool is_name_character(char c);
 
 /// `"x"`, for messages.
 [[nodiscard]] std::string in_quotes(std::string_view text);

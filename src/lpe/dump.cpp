@@ -19,6 +19,12 @@ struct NodeName {
         return "repeat " + std::to_string(repeat.min) + ".." +
                (unbounded ? "" : std::to_string(repeat.max));
     }
+    std::string operator()(const Intersection&) const { return "all of"; }
+    std::string operator()(const Difference&) const { return "first without the others"; }
+    std::string operator()(const Complement&) const { return "all light but"; }
+    std::string operator()(const Reference& reference) const {
+        return "what is called " + reference.name;
+    }
 };
 
 void dump_node(const Node& node, std::size_t indent, std::string& out) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "lpe/cursor.h"
 #include "lpe/parse.h"
 #include "lpe/predicate.h"
+#include "lpe/references.h"
 
 namespace lightsieve::lpe {
 namespace {
@@ -43,7 +45,7 @@ bool takes_kind(const Node& test, EventKind kind) {
 /// `L'key'`: a label right after a test of light, which people mean as the light's group.
 bool has_group_after_light(const Node& root) {
     bool found = false;
-    for_each_node(root, [&](const Node& node) {
+    for_each_written_node(root, [&](const Node& node) {
         const auto* sequence = std::get_if<Sequence>(&node.form);
         if (sequence == nullptr) return;
         for (std::size_t i = 0; i + 1 < sequence->parts.size(); ++i) {
@@ -77,17 +79,26 @@ std::string never_hint(const Expr& expr) {
     return "C can stand only first, L O B A only last";
 }
 
+/// The operands of an expression, each of which should take something, and what is wrong if not.
+std::pair<std::span<const Expr>, const char*> operands(const Node& node) {
+    if (std::holds_alternative<Alternation>(node.form))
+        return {children(node), "this alternative can never take any path"};
+    if (std::holds_alternative<Difference>(node.form))
+        return {children(node).subspan(1), "this takes nothing away: it can never take any path"};
+    if (std::holds_alternative<Complement>(node.form))
+        return {children(node), "this excludes nothing: it can never take any path"};
+    return {};
+}
+
 void lint_never(const Expr& expr, std::string_view aov_name, Diagnostics& diagnostics) {
     if (!shortest_path(expr))
         return diagnostics.lint(Code::LpeNever, prefix(aov_name) + "this can never take any path",
                                 expr->where, never_hint(expr));
-    const auto* alternation = std::get_if<Alternation>(&expr->form);
-    if (alternation == nullptr) return;
-    for (const Expr& part : alternation->parts)
+    const auto [parts, problem] = operands(*expr);
+    for (const Expr& part : parts)
         if (!shortest_path(part))
-            diagnostics.lint(Code::LpeNever,
-                             prefix(aov_name) + "this alternative can never take any path",
-                             part->where, never_hint(part));
+            diagnostics.lint(Code::LpeNever, prefix(aov_name) + problem, part->where,
+                             never_hint(part));
 }
 
 void lint_mixed(const Expr& expr, std::string_view aov_name, Diagnostics& diagnostics) {
@@ -100,9 +111,16 @@ void lint_mixed(const Expr& expr, std::string_view aov_name, Diagnostics& diagno
 /// Reads the text as OSL would and asks whether that makes a difference.
 void lint_binding(std::string_view text, const SourceSpan& base, std::string_view aov_name,
                   const Expr& expr, Diagnostics& diagnostics) {
+    // What a name stands for does not change how far a bar reaches.
     Diagnostics unused;
-    const Expr tight = parse(text, base, unused, {aov_name, AlternationBinding::Tight});
-    if (tight && (equal(tight, expr) || equivalent(tight, expr))) return;
+    const auto read = [&](AlternationBinding binding) {
+        ParseOptions options{aov_name, binding};
+        options.keep_references = true;
+        return parse(text, base, unused, options);
+    };
+    const Expr tight = read(AlternationBinding::Tight);
+    if (equal(tight, read(AlternationBinding::Loose))) return;
+    if (tight && !has_unresolved(tight) && equivalent(tight, expr)) return;
     Cursor in(text, base, aov_name, diagnostics);
     // The first bar outside of labels.
     while (in.peek() != '|' && !in.at_end())
@@ -213,7 +231,7 @@ void lint_in_scene(const Expr& expr, std::string_view aov_name, std::span<const 
                    Diagnostics& diagnostics) {
     if (!expr) return;
     SceneLint lint(aov_name, events, diagnostics);
-    for_each_node(*expr, [&](const Node& node) { lint.check(node); });
+    for_each_written_node(*expr, [&](const Node& node) { lint.check(node); });
     if (lint.found()) return;
     // Say it only where the scene, not the expression itself, is the reason.
     within_budget([&] {
@@ -229,24 +247,46 @@ void lint_overlaps(std::span<const LintOutput> outputs, Diagnostics& diagnostics
         const Builtin* row = find_builtin(output.name);
         return row == nullptr ? std::string_view{} : row->part;
     };
+    // Only AOVs of different parts of the beauty are added up: nobody adds `diffuse` to
+    // `diffuse_direct`. Where two parts overlap so do their direct, indirect and albedo AOVs; the
+    // first pair stands for all of them.
+    struct Overlap {
+        const LintOutput *a, *b;
+        Path both;
+        std::size_t n_more = 0;
+    };
+    std::map<std::pair<std::string_view, std::string_view>, Overlap> overlaps;
     const auto check = [&](const LintOutput& a, const LintOutput& b) {
         const std::string_view part_a = part_of(a), part_b = part_of(b);
         if (part_a.empty() || part_b.empty() || part_a == part_b) return;
-        const std::optional<Path> both = shortest_common_path(a.expr, b.expr);
+        std::optional<Path> both = shortest_common_path(a.expr, b.expr);
         if (!both) return;
-        const bool sheen = part_a == "sheen" || part_b == "sheen";
-        diagnostics.lint(Code::LpeOverlap,
-                         in_quotes(a.name) + " and " + in_quotes(b.name) + " both take " +
-                             in_quotes(print_path(*both)) + ": added up, that counts twice",
-                         b.where,
-                         sheen ? "the table of Arnold 7 takes sheen out of specular"
-                               : "leave one of them out of the sum");
+        const auto [entry, is_new] =
+            overlaps.try_emplace(std::minmax(part_a, part_b), Overlap{&a, &b, {}});
+        if (is_new)
+            entry->second.both = *std::move(both);
+        else
+            ++entry->second.n_more;
     };
     within_budget([&] {
         for (std::size_t i = 0; i < outputs.size(); ++i)
             for (std::size_t j = i + 1; j < outputs.size(); ++j)
                 check(outputs[i], outputs[j]);
     });
+    for (const auto& [parts, overlap] : overlaps) {
+        const bool sheen = parts.first == "sheen" || parts.second == "sheen";
+        const std::string more =
+            overlap.n_more == 0
+                ? ""
+                : " (so do " + std::to_string(overlap.n_more) + " more pairs like this)";
+        diagnostics.lint(Code::LpeOverlap,
+                         in_quotes(overlap.a->name) + " and " + in_quotes(overlap.b->name) +
+                             " both take " + in_quotes(print_path(overlap.both)) +
+                             ": added up, that counts twice" + more,
+                         overlap.b->where,
+                         sheen ? "the table of Arnold 7 takes sheen out of specular"
+                               : "leave one of them out of the sum");
+    }
 }
 
 }  // namespace lightsieve::lpe

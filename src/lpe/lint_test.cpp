@@ -38,6 +38,23 @@ TEST(Lint, HintsSayWhyNothingIsTaken) {
     EXPECT_EQ(hint("C.*"), "");
 }
 
+TEST(Lint, NamesOfCustomExpressionsDoNotChangeHowFarABarReaches) {
+    ExpressionTable table;
+    Diagnostics diagnostics;
+    const auto define = [&](const std::string& text) {
+        table.define(text, stand_alone(text), diagnostics);
+    };
+    define("mine C[DS]L");
+    define("other $mine - CSL");
+    define("either (($mine)|($other))");
+    define("reaches C$mine|$other");
+    table.resolve(diagnostics);
+    std::size_t n_binding = 0;
+    for (const Error& item : diagnostics.items())
+        n_binding += item.code == Code::LpeBinding ? 1 : 0;
+    EXPECT_EQ(n_binding, 1U) << diagnostics.render();
+}
+
 TEST(Lint, RenderedText) {
     EXPECT_EQ(lints("((C.*)|(DL))"),
               "<expression>:1:9: lint[lpe-never]: this alternative can never take any path\n"
@@ -141,6 +158,12 @@ TEST(Overlap, OfOutputsThatPeopleAddUp) {
         lint(BuiltinTable::Reference, {"RGBA", "diffuse", "specular", "coat", "sheen"}),
         "\"specular\" and \"sheen\" both take \"C RS'sheen' L\": added up, that counts twice; "
         "the table of Arnold 7 takes sheen out of specular\n");
+    // One for all pairs of the same two parts.
+    EXPECT_EQ(
+        lint(BuiltinTable::Reference,
+             {"specular", "specular_direct", "sheen", "sheen_direct", "coat"}),
+        "\"specular\" and \"sheen\" both take \"C RS'sheen' L\": added up, that counts twice "
+        "(so do 3 more pairs like this); the table of Arnold 7 takes sheen out of specular\n");
     EXPECT_EQ(lint(BuiltinTable::Arnold7, {"RGBA", "diffuse", "specular", "coat", "sheen"}), "");
     // Parts beside their sum are no mistake.
     EXPECT_EQ(lint(BuiltinTable::Reference,

@@ -4,14 +4,18 @@
 #include <optional>
 #include <utility>
 
+#include "lpe/builtins.h"
 #include "lpe/cursor.h"
 #include "lpe/parse_event.h"
+#include "lpe/references.h"
 
 namespace lightsieve::lpe {
 namespace {
 
 constexpr std::string_view kQuantifiers = "*+?{";
 constexpr std::string_view kDigits = "0123456789";
+/// What ends a sequence.
+constexpr std::string_view kOperators = "|)&-";
 
 /// A recursive-descent parser, one method per rule of the grammar, in the grammar's order.
 ///
@@ -22,7 +26,9 @@ class Parser {
   public:
     Parser(std::string_view text, const SourceSpan& base, Diagnostics& diagnostics,
            const ParseOptions& options)
-        : in_(text, base, options.aov_name, diagnostics), binding_(options.binding) {}
+        : in_(text, base, options.aov_name, diagnostics),
+          binding_(options.binding),
+          standard_(options.standard) {}
 
     Expr parse_all();
 
@@ -37,6 +43,8 @@ class Parser {
     };
 
     Expr parse_alternation(bool in_parentheses);
+    Expr parse_algebra(Expr left, std::size_t begin);
+    bool take_operator(char c);
     std::vector<Part> parse_sequence();
     Part parse_item();
     Part parse_repeat();
@@ -44,7 +52,10 @@ class Parser {
     std::optional<Repeat> parse_counts(std::size_t begin);
     std::optional<std::uint32_t> parse_number();
     Expr parse_group();
+    Expr parse_complement();
+    Expr parse_reference();
 
+    void reject_extension(const std::string& what, std::size_t begin);
     void reject_empty(bool whole, bool in_parentheses);
     [[nodiscard]] bool blanks_make_alternatives(const std::vector<Part>& parts);
     [[nodiscard]] Expr sequence_of(std::vector<Part> parts) const;
@@ -59,7 +70,9 @@ class Parser {
 
     Cursor in_;
     AlternationBinding binding_;
+    bool standard_;
     std::size_t depth_ = 0;
+    std::size_t n_chained_ = 0;  ///< operators that make the tree deeper without parentheses
     bool first_ = true;  ///< no event stands before the cursor: a small c may be the camera
 };
 
@@ -80,7 +93,7 @@ Expr Parser::parse_all() {
     return in_.n_errors() == 0 ? expr : nullptr;
 }
 
-/// alternation = sequence { "|" sequence }; in parentheses also the alternatives that blanks make.
+/// alternation = algebra { "|" algebra }; in parentheses also the alternatives that blanks make.
 Expr Parser::parse_alternation(bool in_parentheses) {
     in_.skip_blanks();
     const std::size_t begin = in_.position();
@@ -90,26 +103,84 @@ Expr Parser::parse_alternation(bool in_parentheses) {
         first_ = first;
         const std::size_t errors_before = in_.n_errors();
         std::vector<Part> parts = parse_sequence();
-        const bool whole = alternatives.empty() && in_.peek() != '|';
+        const bool whole = alternatives.empty() && !in_.peek_is_one_of("|&-");
         if (parts.empty() && in_.n_errors() == errors_before) reject_empty(whole, in_parentheses);
         if (whole && in_parentheses && blanks_make_alternatives(parts)) {
             for (Part& part : parts)
                 alternatives.push_back(std::move(part.expr));
             break;
         }
-        alternatives.push_back(sequence_of(std::move(parts)));
+        const std::size_t left_begin = parts.empty() ? in_.position() : parts.front().begin;
+        first_ = first;
+        alternatives.push_back(parse_algebra(sequence_of(std::move(parts)), left_begin));
     } while (!too_many_errors() && in_.take_if('|'));
     if (alternatives.size() == 1) return alternatives[0];
     return alternation_of(std::move(alternatives), begin);
 }
 
-/// sequence = item { item }, up to `|`, `)` or the end.
+/// algebra = sequence { ("&" | "-") sequence }, from left to right; the first sequence, which began
+/// at `begin`, is `left`. A run of one operator is one node.
+Expr Parser::parse_algebra(Expr left, std::size_t begin) {
+    const bool first = first_;
+    char last = '\0';
+    while (in_.peek_is_one_of("&-") && !too_many_errors()) {
+        const char c = in_.peek();
+        if (!take_operator(c)) return nullptr;
+        first_ = first;
+        const std::size_t errors_before = in_.n_errors();
+        std::vector<Part> parts = parse_sequence();
+        const std::size_t end = parts.empty() ? in_.position() : parts.back().end;
+        if (parts.empty() && in_.n_errors() == errors_before)
+            in_.error(Code::LpeOperator, "nothing after " + in_quotes({&c, 1}), in_.position(),
+                      in_.position() + (in_.at_end() ? 0 : 1),
+                      "both sides are expressions: C.* - CD.*");
+        const Expr right = sequence_of(std::move(parts));
+        std::vector<Expr> all{left, right};
+        if (c == last) {
+            const std::span<const Expr> before = children(*left);
+            all.assign(before.begin(), before.end());
+            all.push_back(right);
+        }
+        left = c == '&' ? make(Intersection{std::move(all)}, begin, end)
+                        : make(Difference{std::move(all)}, begin, end);
+        last = c;
+    }
+    return left;
+}
+
+/// Takes `&` or `-`; false if it is one too many.
+bool Parser::take_operator(char c) {
+    const std::size_t at = in_.position();
+    const auto is_blank = [&](std::size_t i) {
+        return i < in_.text().size() && kBlanks.find(in_.text()[i]) != std::string_view::npos;
+    };
+    in_.take();
+    const std::string written = in_quotes({&c, 1});
+    if (standard_)
+        reject_extension(written, at);
+    else if (at == 0 || !is_blank(at - 1) || !is_blank(at + 1))
+        in_.error(Code::LpeOperator, written + " without blanks round it", at, at + 1,
+                  "write \"a " + std::string{c} + " b\"");
+    if (++n_chained_ <= kMaxNesting) return true;
+    in_.error(Code::LimitLpeNesting, "too many & and -", at, at + 1,
+              "the limit kMaxNesting is " + std::to_string(kMaxNesting) +
+                  "; many expressions together are ((..)|(..))");
+    in_.abandon();
+    return false;
+}
+
+void Parser::reject_extension(const std::string& what, std::size_t begin) {
+    in_.error(Code::LpeStandard, what + " is no part of Arnold's language", begin, in_.position(),
+              "only the standard language is allowed here (--lpe-standard)");
+}
+
+/// sequence = item { item }, up to an operator, `)` or the end.
 std::vector<Parser::Part> Parser::parse_sequence() {
     std::vector<Part> parts;
     const bool first = first_;
     bool only_groups = true;
     bool blank = in_.skip_blanks();
-    while (!in_.at_end() && !in_.peek_is_one_of("|)") && !too_many_errors()) {
+    while (!in_.at_end() && !in_.peek_is_one_of(kOperators) && !too_many_errors()) {
         // In ((cDL) (cVL)) each group may turn out to start an alternative.
         if (first && only_groups && blank && in_.peek() == '(') first_ = true;
         Part part = parse_item();
@@ -131,7 +202,7 @@ Parser::Part Parser::parse_item() {
     in_.skip_blanks();
     while (in_.take_if('|')) {
         in_.skip_blanks();
-        if (in_.at_end() || in_.peek_is_one_of("|)")) break;
+        if (in_.at_end() || in_.peek_is_one_of(kOperators)) break;
         first_ = first;
         Part next = parse_repeat();
         item.end = next.end;
@@ -156,7 +227,10 @@ Parser::Part Parser::parse_repeat() {
         return part;
     }
     part.is_group = in_.peek() == '(';
-    part.expr = part.is_group ? parse_group() : parse_event(in_, first_);
+    part.expr = part.is_group            ? parse_group()
+                : in_.peek() == '!'      ? parse_complement()
+                : in_.starts_reference() ? parse_reference()
+                                         : parse_event(in_, first_);
     for (part.end = in_.position(); in_.skip_blanks(), in_.peek_is_one_of(kQuantifiers);
          part.end = in_.position()) {
         const std::size_t begin = in_.position();
@@ -253,11 +327,58 @@ Expr Parser::parse_group() {
     return nullptr;
 }
 
+/// "!" "(" alternation ")"
+Expr Parser::parse_complement() {
+    const std::size_t begin = in_.position();
+    in_.take();
+    if (standard_) reject_extension("\"!\"", begin);
+    in_.skip_blanks();
+    if (in_.peek() != '(') {
+        in_.error(Code::LpeOperator, "\"!\" without parentheses", begin, begin + 1,
+                  "all light but that of a is !(a); an event that is no D is [^D]");
+        return nullptr;
+    }
+    Expr body = parse_group();
+    if (!body) return nullptr;
+    return make(Complement{std::move(body)}, begin, in_.position());
+}
+
+/// "$" name | "$" "{" name "}"
+Expr Parser::parse_reference() {
+    const std::size_t begin = in_.position();
+    in_.take();
+    std::string name;
+    if (in_.take_if('{')) {
+        const std::size_t close = in_.text().find('}', begin);
+        if (close == std::string_view::npos) {
+            in_.error(Code::LpeUnclosed, "\"${\" is never closed", begin, begin + 2,
+                      "close it: ${diffuse}");
+            in_.abandon();
+            return nullptr;
+        }
+        name = in_.text(begin + 2, close);
+        in_.move_to(close + 1);
+        if (name.empty()) {
+            in_.error(Code::LpeReference, "a name of no letters", begin, in_.position(),
+                      "name an AOV: ${diffuse}");
+            return nullptr;
+        }
+    } else {
+        while (is_name_character(in_.peek()))
+            name += in_.take();
+    }
+    if (standard_) reject_extension(in_quotes(in_.text(begin, in_.position())), begin);
+    return make(Reference{std::move(name), nullptr}, begin, in_.position());
+}
+
 /// whole: it is the whole expression or group that is empty, not one of its alternatives.
 void Parser::reject_empty(bool whole, bool in_parentheses) {
     const std::size_t begin = in_.position();
     const std::size_t end = begin + (in_.at_end() ? 0 : 1);
-    if (!whole)
+    if (in_.peek_is_one_of("&-"))
+        in_.error(Code::LpeOperator, "nothing before " + in_quotes(in_.text(begin, end)), begin,
+                  end, "both sides are expressions: C.* - CD.*");
+    else if (!whole)
         in_.error(Code::LpeEmpty, "nothing on one side of \"|\"", begin, end,
                   "a part that may be missing is written (..)?");
     else if (in_parentheses)
@@ -304,7 +425,12 @@ Expr Parser::alternation_of(std::vector<Expr> parts, std::size_t begin) const {
 
 Expr parse(std::string_view text, const SourceSpan& base, Diagnostics& diagnostics,
            const ParseOptions& options) {
-    return Parser(text, base, diagnostics, options).parse_all();
+    Expr expr = Parser(text, base, diagnostics, options).parse_all();
+    if (options.keep_references || !has_unresolved(expr)) return expr;
+    if (options.names != nullptr)
+        return resolve_references(expr, *options.names, options.aov_name, diagnostics);
+    static const ExpressionTable builtins_only;
+    return resolve_references(expr, builtins_only, options.aov_name, diagnostics);
 }
 
 Expr parse(std::string_view text, Diagnostics& diagnostics) {

@@ -30,9 +30,17 @@ enum class AlternationBinding : std::uint8_t {
     Tight,  ///< one item on each side, as OSL and RenderMan read it: `CD|SL` is `C(D|S)L`
 };
 
+class ExpressionTable;  // builtins.h
+
 struct ParseOptions {
     std::string_view aov_name{};  ///< put before every message, if there is one
     AlternationBinding binding = AlternationBinding::Loose;
+    /// Arnold's language only: `&`, `-`, `!( )` and `$name` are errors (code lpe-standard).
+    bool standard = false;
+    /// What `$name` means; null: the built-ins of the reference table.
+    const ExpressionTable* names = nullptr;
+    /// Leave `$name` unresolved: the caller does that with `resolve_references`.
+    bool keep_references = false;
 };
 
 /// Reads an expression.

@@ -42,6 +42,11 @@ void reject_inside(Cursor& in, char close) {
         in.take();
         in.error(Code::LpeQuantifier, "a quantifier inside " + where, begin, begin + 1,
                  "put it after the " + in_quotes({&close, 1}));
+    } else if (in.peek_is_one_of("&-!")) {
+        const std::string c{in.take()};
+        in.error(Code::LpeOperator, in_quotes(c) + " inside " + where, begin, begin + 1,
+                 "single events only; outside of " + where + " write " +
+                     (c == "!" ? "!(a)" : "(a " + c + " b)"));
     } else if (in.peek_is_one_of("|()")) {
         const char c = in.take();
         in.error(Code::LpeCharacter, in_quotes({&c, 1}) + " inside " + where, begin, begin + 1,
@@ -241,7 +246,7 @@ Expr parse_brackets(Cursor& in) {
     for (in.skip_blanks(); !in.take_if(']'); in.skip_blanks()) {
         if (in.at_end()) return nullptr;  // a broken label swallowed the bracket
         Expr item;
-        if (in.peek_is_one_of("|()") || in.peek_is_one_of(kQuantifiers)) {
+        if (in.peek_is_one_of("|()&-!") || in.peek_is_one_of(kQuantifiers)) {
             reject_inside(in, ']');
         } else if (in.peek() == '[') {
             in.error(Code::LpeCharacter, "\"[\" inside [..]", in.position(), in.position() + 1,

@@ -78,6 +78,7 @@ class PathReader {
             event.kind = row->kind;
             return true;
         }
+        if (in_.at_end()) return reject("\"<\" is never closed", begin, "name an event: <RD>");
         if (letter == 'D' || letter == 'S') {
             const std::string lobe{letter};
             return reject(in_quotes(lobe) + " is no single event", begin,

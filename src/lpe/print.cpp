@@ -1,5 +1,9 @@
 #include "lpe/print.h"
 
+#include <algorithm>
+
+#include "lpe/cursor.h"
+
 namespace lightsieve::lpe {
 namespace {
 
@@ -40,11 +44,31 @@ std::string print_quantifier(const Repeat& repeat) {
     return "{" + min + "," + std::to_string(repeat.max) + "}";
 }
 
-/// With parentheses where a sequence or a repeat would otherwise run into its surroundings.
+bool is_algebra(const Node& node) {
+    return std::holds_alternative<Intersection>(node.form) ||
+           std::holds_alternative<Difference>(node.form);
+}
+
+/// With parentheses where it would otherwise run into its surroundings: as the body of a repeat.
 std::string print_as_item(const Node& node) {
-    const bool open =
-        std::holds_alternative<Sequence>(node.form) || std::holds_alternative<Repeat>(node.form);
+    const bool open = std::holds_alternative<Sequence>(node.form) ||
+                      std::holds_alternative<Repeat>(node.form) || is_algebra(node);
     return open ? "(" + print(node) + ")" : print(node);
+}
+
+std::string print_operands(const std::vector<Expr>& parts, const char* operation) {
+    std::string out;
+    for (const Expr& part : parts) {
+        if (!out.empty()) out += operation;
+        out += is_algebra(*part) ? "(" + print(*part) + ")" : print(*part);
+    }
+    return out;
+}
+
+/// `$name`, which a letter or digit must not follow.
+bool is_open_ended(const Node& node) {
+    const auto* reference = std::get_if<Reference>(&node.form);
+    return reference != nullptr && std::ranges::all_of(reference->name, is_name_character);
 }
 
 struct Printer {
@@ -65,9 +89,13 @@ struct Printer {
     }
     std::string operator()(const Sequence& sequence) const {
         std::string out;
+        bool open_ended = false;
         for (const Expr& part : sequence.parts) {
-            const bool nested = std::holds_alternative<Sequence>(part->form);
-            out += nested ? print_as_item(*part) : print(*part);
+            const bool nested = std::holds_alternative<Sequence>(part->form) || is_algebra(*part);
+            const std::string text = nested ? print_as_item(*part) : print(*part);
+            if (open_ended && is_name_character(text[0])) out += ' ';
+            out += text;
+            open_ended = is_open_ended(*part);
         }
         return out;
     }
@@ -79,6 +107,19 @@ struct Printer {
     }
     std::string operator()(const Repeat& repeat) const {
         return print_as_item(*repeat.body) + print_quantifier(repeat);
+    }
+    std::string operator()(const Intersection& all) const {
+        return print_operands(all.parts, " & ");
+    }
+    std::string operator()(const Difference& difference) const {
+        return print_operands(difference.parts, " - ");
+    }
+    std::string operator()(const Complement& complement) const {
+        return "!(" + print(*complement.body) + ")";
+    }
+    std::string operator()(const Reference& reference) const {
+        const bool plain = std::ranges::all_of(reference.name, is_name_character);
+        return plain ? "$" + reference.name : "${" + reference.name + "}";
     }
 };
 

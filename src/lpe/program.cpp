@@ -18,7 +18,10 @@ namespace {
 constexpr std::string_view kDefaultGroup = "default";
 /// Work spent on putting expressions together, in units of Limits::max_steps, before the rest stay
 /// apart.
-constexpr std::size_t kSplitEffort = 20;
+constexpr std::size_t kSplitEffort = 4;
+/// Automata of several expressions that were split get this part of the budget: what does not fit
+/// is found out soon, and more states would hold few expressions more.
+constexpr std::size_t kJointShare = 25;
 
 /// What a terminal's group means to the requests: a number per group that one of them names, and
 /// these.
@@ -102,7 +105,9 @@ class ProgramBuilder {
     void number_columns();
     void compile_together(const Components& components);
     void compile_apart(const Components& components);
-    std::optional<Determinised> try_determinise(const Components& components, OverBudget* over);
+    std::size_t run_that_fits(std::span<const std::uint32_t> queue);
+    std::optional<Determinised> try_determinise(const Components& components, const Limits& limits,
+                                                OverBudget* over);
     void add_automaton(const Components& components, Determinised determinised);
     AtomId atom_of(const Components& components, std::span<const std::uint32_t> accepting,
                    std::uint32_t group);
@@ -212,19 +217,20 @@ void ProgramBuilder::number_columns() {
 }
 
 std::optional<Determinised> ProgramBuilder::try_determinise(const Components& components,
+                                                            const Limits& limits,
                                                             OverBudget* over) {
     try {
-        Determinised made = determinise(exprs_of(components), *alphabet_, limits_);
+        Determinised made = determinise(exprs_of(components), *alphabet_, limits);
         total_steps_ += made.n_steps;
         const std::size_t stride = 1 + program_.n_classes_ + program_.n_terminals_;
-        if (made.dfa.n_states() * stride * sizeof(std::uint32_t) > limits_.max_table_bytes)
+        if (made.dfa.n_states() * stride * sizeof(std::uint32_t) > limits.max_table_bytes)
             throw OverBudget{
                 Code::LimitLpeTable,
-                "needs a table of more than " + std::to_string(limits_.max_table_bytes) + " bytes",
+                "needs a table of more than " + std::to_string(limits.max_table_bytes) + " bytes",
                 "max_table_bytes"};
         return made;
     } catch (const OverBudget& exceeded) {
-        total_steps_ += limits_.max_steps;
+        total_steps_ += limits.max_steps;
         if (over != nullptr) *over = exceeded;
         return std::nullopt;
     }
@@ -232,50 +238,67 @@ std::optional<Determinised> ProgramBuilder::try_determinise(const Components& co
 
 void ProgramBuilder::compile_together(const Components& components) {
     if (components.empty()) return;
-    if (std::optional<Determinised> whole = try_determinise(components, nullptr))
+    if (std::optional<Determinised> whole = try_determinise(components, limits_, nullptr))
         return add_automaton(components, *std::move(whole));
     compile_apart(components);
 }
 
-/// Each expression alone, to find those that can never be compiled; then, smallest first, each
-/// into the first automaton that stays within the budget.
+/// Each expression alone, to find those that can never be compiled; then, smallest first, as many
+/// in a row to one automaton as fit.
 void ProgramBuilder::compile_apart(const Components& components) {
     std::vector<std::pair<std::size_t, std::uint32_t>> by_size;
     for (const std::uint32_t c : components) {
         OverBudget over;
-        if (const std::optional<Determinised> alone = try_determinise({c}, &over))
+        if (const std::optional<Determinised> alone = try_determinise({c}, limits_, &over))
             by_size.emplace_back(alone->dfa.n_states(), c);
         else
             diagnostics_.add(budget_error(aovs_[components_[c].first_request], over));
     }
     std::ranges::sort(by_size);
+    Components queue;
+    for (const auto& [size, c] : by_size)
+        queue.push_back(c);
     total_steps_ = 0;
-    std::vector<Components> parts;
-    for (const auto& [size, c] : by_size) {
-        const auto fits = [&, added = c](const Components& part) {
-            if (total_steps_ > kSplitEffort * limits_.max_steps) return false;
-            Components larger = part;
-            larger.push_back(added);
-            return try_determinise(larger, nullptr).has_value();
-        };
-        const auto part = std::ranges::find_if(parts, fits);
-        if (part != parts.end()) {
-            part->push_back(c);
-        } else if (parts.size() < limits_.max_automata) {
-            parts.push_back({c});
-        } else {
+    std::size_t n_parts = 0;
+    for (std::size_t at = 0; at < queue.size();) {
+        const std::size_t n = run_that_fits(std::span(queue).subspan(at));
+        Components part(queue.begin() + static_cast<std::ptrdiff_t>(at),
+                        queue.begin() + static_cast<std::ptrdiff_t>(at + n));
+        at += n;
+        std::ranges::sort(part);
+        if (++n_parts <= limits_.max_automata) {
+            // It was within the budget when it was tried.
+            add_automaton(part, determinise(exprs_of(part), *alphabet_, limits_));
+            continue;
+        }
+        for (const std::uint32_t c : part) {
             const OverBudget over{Code::LimitLpeAutomata,
-                                  "would be number " + std::to_string(parts.size() + 1) +
+                                  "would be in number " + std::to_string(n_parts) +
                                       " of those that a path steps together",
                                   "max_automata"};
             diagnostics_.add(budget_error(aovs_[components_[c].first_request], over));
         }
     }
-    for (Components& part : parts) {
-        std::ranges::sort(part);
-        // It was within the budget when the last expression joined it.
-        add_automaton(part, determinise(exprs_of(part), *alphabet_, limits_));
-    }
+}
+
+/// How many components from the front fit into one automaton, found in few tries: twice as many
+/// more each time, then half as many. At least one, which fits alone.
+std::size_t ProgramBuilder::run_that_fits(std::span<const std::uint32_t> queue) {
+    Limits narrow = limits_;
+    narrow.max_states = std::max<std::size_t>(1, limits_.max_states / kJointShare);
+    narrow.max_steps = std::max<std::size_t>(1, limits_.max_steps / kJointShare);
+    const auto fits = [&](std::size_t n) {
+        if (total_steps_ > kSplitEffort * limits_.max_steps) return false;
+        return try_determinise({queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(n)},
+                               narrow, nullptr)
+            .has_value();
+    };
+    std::size_t n = 1, step = 1;
+    for (; n + step <= queue.size() && fits(n + step); step *= 2)
+        n += step;
+    for (; step > 0; step /= 2)
+        if (n + step <= queue.size() && fits(n + step)) n += step;
+    return n;
 }
 
 /// The atom of the paths that these components take and whose terminal is in `group`.

@@ -317,6 +317,51 @@ TEST(Budget, ExplosionsAreClearErrors) {
         << nested;
 }
 
+TEST(Budget, HostileExtensionsEndSoon) {
+    const std::vector<Event> events = must_events("RD RS V L O A");
+    std::string met = "C.*D.{3}.*", nested = "CD.*", growing = "C.*D.{4}L";
+    for (int i = 4; i < 40; ++i)
+        met += " & C.*D.{" + std::to_string(i) + "}S.*";
+    for (int i = 0; i < 200; ++i)
+        nested = "!(" + nested + ")";
+    for (int i = 0; i < 60; ++i)
+        growing = "(" + growing + (i % 2 == 0 ? " & " : " - ") + "C(.*S.{" + std::to_string(i) +
+                  "})*.*)";
+    for (const std::string& text : {met, std::string("!(C.*D.{20}L) - C.*S.{19}L"), growing}) {
+        Diagnostics diagnostics;
+        const Expr expr = parse(text, diagnostics);
+        ASSERT_TRUE(expr) << diagnostics.render();
+        (void)Program::compile(std::vector<AovRequest>{{"x", expr}}, events, {}, diagnostics);
+        ASSERT_LE(diagnostics.items().size(), 1U);
+        for (const Error& error : diagnostics.items())
+            EXPECT_TRUE(code_text(error.code).starts_with("limit-lpe-")) << error.message;
+    }
+    // Deep alone is no reason to refuse.
+    EXPECT_EQ(compile_errors(requests({nested}), events), "");
+}
+
+TEST(Budget, AThousandExpressionsAreSplitWithinTheLimits) {
+    std::mt19937 random(7);
+    const std::vector<Event> events = must_events("RD RS RS'coat' TD TS V L L'key' O B A");
+    std::vector<AovRequest> aovs;
+    for (int i = 0; i < 1000; ++i)
+        aovs.push_back({"aov" + std::to_string(i),
+                        testing::random_light_expression(random, 4 + random() % 12)});
+    Limits limits;
+    limits.max_states = 4'000;
+    limits.max_steps = 500'000;
+    Diagnostics diagnostics;
+    const Program program = Program::compile(aovs, events, limits, diagnostics);
+    EXPECT_GT(program.n_automata(), 1U);
+    EXPECT_LE(program.n_automata(), limits.max_automata);
+    for (std::size_t i = 0; i < program.n_automata(); ++i)
+        EXPECT_LE(program.automaton(i).n_states(), limits.max_states);
+    // Those that are refused are named; few are.
+    EXPECT_LT(diagnostics.n_errors(), 100U);
+    for (const Error& error : diagnostics.items())
+        EXPECT_TRUE(code_text(error.code).starts_with("limit-lpe-")) << error.message;
+}
+
 TEST(Budget, HostileTextsEndSoon) {
     const auto repeated = [](const std::string& text, int n) {
         std::string out;

@@ -120,6 +120,58 @@ TermId TermPool::make_repeat(TermId body, std::uint32_t min, std::uint32_t max) 
     return store(std::array<std::uint32_t, 4>{kRepeatKind, body, min, max}, flags);
 }
 
+/// Nested ones flattened, sorted, without duplicates; differences are taken after all parts are
+/// met: a & (b - c) is (a & b) - c. Uses `parts` as scratch space.
+TermId TermPool::make_intersection(std::vector<TermId>& parts) {
+    count_steps(parts.size());
+    std::vector<TermId> removed;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        while (kind(parts[i]) == kDifferenceKind) {
+            removed.push_back(field(parts[i], 2));
+            parts[i] = field(parts[i], 1);
+        }
+        if (kind(parts[i]) == kIntersectionKind) {
+            const std::vector<TermId> inner(terms_[parts[i]].begin() + 1, terms_[parts[i]].end());
+            parts[i] = inner[0];
+            parts.insert(parts.end(), inner.begin() + 1, inner.end());
+        }
+    }
+    std::ranges::sort(parts);
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    if (parts[0] == kNothing) return kNothing;
+    // What `.*` forbids another part may forbid as well.
+    const auto universal = std::ranges::find_if(parts, [&](TermId p) { return is_universal(p); });
+    if (universal != parts.end() &&
+        std::ranges::any_of(parts, [&](TermId p) { return p != *universal && !takes_rare(p); }))
+        parts.erase(universal);
+    TermId met = parts[0];
+    if (parts.size() > 1) {
+        unsigned flags = kNullable | kTakesRare;
+        for (const TermId part : parts)
+            flags &= flags_[part];
+        parts.insert(parts.begin(), kIntersectionKind);
+        met = store(parts, flags);
+    }
+    if (removed.empty()) return met;
+    return make_difference(met, make_alternation(removed));
+}
+
+/// (a - b) - c is a - (b|c).
+TermId TermPool::make_difference(TermId whole, TermId removed) {
+    count_steps(1);
+    if (whole == kNothing || removed == kNothing) return whole;
+    if (kind(whole) == kDifferenceKind) {
+        std::vector<TermId> both{field(whole, 2), removed};
+        removed = make_alternation(both);
+        whole = field(whole, 1);
+    }
+    if (whole == removed || (is_universal(removed) && !takes_rare(whole))) return kNothing;
+    if (whole == kEmpty) return accepts_empty(removed) ? kNothing : kEmpty;
+    unsigned flags = flags_[whole] & kTakesRare;
+    if (accepts_empty(whole) && !accepts_empty(removed)) flags |= kNullable;
+    return store(std::array<std::uint32_t, 3>{kDifferenceKind, whole, removed}, flags);
+}
+
 /// Is it a single event that may be any but the camera and a probe?
 bool TermPool::takes_all_else(TermId term) const {
     if (kind(term) != kSetKind || takes_rare(term)) return false;
@@ -132,20 +184,48 @@ bool TermPool::is_rare(EventClass c) const {
     return c == Alphabet::kCamera || alphabet_.is_probe(c);
 }
 
+/// The set of the classes that belong.
+TermId TermPool::set_of(const auto& belongs) {
+    std::vector<std::uint32_t> classes(alphabet_.n_words(), 0);
+    for (EventClass c = 0; c < alphabet_.n_classes(); ++c)
+        if (belongs(c)) classes[c / 32] |= std::uint32_t{1} << (c % 32);
+    return make_set(classes);
+}
+
 TermId TermPool::lower(const Expr& expr) { return expr ? lower_node(*expr) : kNothing; }
 
 TermId TermPool::lower_node(const Node& node) {
     if (is_event_test(node)) return make_set(alphabet_.taken_by(node));
     if (const auto* repeat = std::get_if<Repeat>(&node.form))
         return make_repeat(lower(repeat->body), repeat->min, repeat->max);
+    if (const auto* complement = std::get_if<Complement>(&node.form))
+        return lower_complement(complement->body);
+    if (const auto* reference = std::get_if<Reference>(&node.form)) {
+        LIGHTSIEVE_ASSERT(reference->body, "$" + reference->name + " was not resolved");
+        return lower(reference->body);
+    }
     std::vector<TermId> parts;
     for (const Expr& child : children(node))
         parts.push_back(lower(child));
     if (std::holds_alternative<Alternation>(node.form)) return make_alternation(parts);
+    if (std::holds_alternative<Intersection>(node.form)) return make_intersection(parts);
+    if (std::holds_alternative<Difference>(node.form)) {
+        for (std::size_t i = 1; i < parts.size(); ++i)
+            parts[0] = make_difference(parts[0], parts[i]);
+        return parts[0];
+    }
     TermId sequence = kEmpty;
     for (std::size_t i = parts.size(); i-- > 0;)
         sequence = make_sequence(parts[i], sequence);
     return sequence;
+}
+
+/// !(a) is C.* - (a).
+TermId TermPool::lower_complement(const Expr& body) {
+    const TermId camera = set_of([](EventClass c) { return c == Alphabet::kCamera; });
+    const TermId any = set_of([&](EventClass c) { return !is_rare(c); });
+    const TermId light = make_sequence(camera, make_repeat(any, 0, Repeat::kUnbounded));
+    return make_difference(light, lower(body));
 }
 
 // ---- derivatives ----
@@ -180,6 +260,13 @@ TermId TermPool::derive_now(TermId term, EventClass c) {
         case kSequenceKind: return derive_sequence(term, c);
         case kAlternationKind: return derive_alternation(term, c);
         case kRepeatKind: return derive_repeat(term, c);
+        case kIntersectionKind: return derive_intersection(term, c);
+        case kDifferenceKind: {
+            const TermId whole = derive(field(term, 1), c);
+            // What is not there needs no taking away.
+            if (whole == kNothing) return kNothing;
+            return make_difference(whole, derive(field(term, 2), c));
+        }
         default: return kNothing;
     }
 }
@@ -204,6 +291,15 @@ TermId TermPool::derive_alternation(TermId term, EventClass c) {
     for (std::size_t i = 1; i < terms_[term].size(); ++i)
         parts.push_back(derive(field(term, i), c));
     return make_alternation(parts);
+}
+
+TermId TermPool::derive_intersection(TermId term, EventClass c) {
+    std::vector<TermId> parts;
+    for (std::size_t i = 1; i < terms_[term].size(); ++i) {
+        parts.push_back(derive(field(term, i), c));
+        if (parts.back() == kNothing) return kNothing;
+    }
+    return make_intersection(parts);
 }
 
 /// One round moves on, the others are left. That also holds where a round may be empty, as min is

@@ -4,7 +4,8 @@
 // of that class has been seen; an automaton's states are nothing but derivatives. Terms are stored
 // once and kept in a normal form (alternatives sorted and without duplicates, sequences nested to
 // the right, what `.*` takes anyway left out), which makes their number finite and small. Repeats
-// {n,m} stay symbolic: they count down instead of being unrolled. Source: Owens, Reppy, Turon,
+// {n,m} stay symbolic: they count down instead of being unrolled. `a & b` and `a - b` are derived
+// part by part; there is no general "not", so that nothing takes what is no path. Source: Owens, Reppy, Turon,
 // "Regular-expression derivatives re-examined", JFP 19 (2009).
 #pragma once
 
@@ -53,10 +54,12 @@ class TermPool {
     enum Kind : std::uint32_t {
         kNothingKind,
         kEmptyKind,
-        kSetKind,          ///< one event: number of a set of classes
-        kSequenceKind,     ///< head, tail
-        kAlternationKind,  ///< the parts
-        kRepeatKind,       ///< body, min, max
+        kSetKind,           ///< one event: number of a set of classes
+        kSequenceKind,      ///< head, tail
+        kAlternationKind,   ///< the parts
+        kRepeatKind,        ///< body, min, max
+        kIntersectionKind,  ///< the parts
+        kDifferenceKind,    ///< what is taken, what of it is not
     };
     enum Flags : std::uint8_t {
         kNullable = 1,   ///< takes the path of no events
@@ -75,13 +78,18 @@ class TermPool {
     TermId make_sequence(TermId head, TermId tail);
     TermId make_alternation(std::vector<TermId>& parts);
     TermId make_repeat(TermId body, std::uint32_t min, std::uint32_t max);
+    TermId make_intersection(std::vector<TermId>& parts);
+    TermId make_difference(TermId whole, TermId removed);
     [[nodiscard]] bool takes_all_else(TermId term) const;
     [[nodiscard]] bool is_rare(EventClass c) const;
+    [[nodiscard]] TermId set_of(const auto& belongs);
     TermId lower_node(const Node& node);
+    TermId lower_complement(const Expr& body);
     TermId derive_now(TermId term, EventClass c);
     TermId derive_sequence(TermId term, EventClass c);
     TermId derive_alternation(TermId term, EventClass c);
     TermId derive_repeat(TermId term, EventClass c);
+    TermId derive_intersection(TermId term, EventClass c);
 
     const Alphabet& alphabet_;
     Limits limits_;

@@ -7,6 +7,8 @@ namespace lightsieve::python {
 
 /// Expressions, built-ins, paths (module _lpe).
 void add_lpe(nanobind::module_& module);
+/// Dialects of other renderers (module _lpe).
+void add_dialects(nanobind::module_& module);
 /// The node types (module _core).
 void add_nodes(nanobind::module_& module);
 /// Reading and checking EXR files (module _core).

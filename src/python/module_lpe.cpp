@@ -6,4 +6,5 @@ NB_MODULE(_lpe, module) {
     lightsieve::python::translate_errors();
     lightsieve::python::add_common(module);
     lightsieve::python::add_lpe(module);
+    lightsieve::python::add_dialects(module);
 }

@@ -2,7 +2,9 @@
 
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
 #include <atomic>
@@ -11,10 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "lpe/path.h"
 #include "nodes/all_nodes.h"
 #include "python/errors.h"
 #include "python/interruptible.h"
 #include "python/layers.h"
+#include "render/scene.h"
 #include "scene/ass_read.h"
 #include "scene/graph.h"
 #include "scene/registry.h"
@@ -52,6 +56,33 @@ class CompiledScene {
     [[nodiscard]] std::size_t n_warnings() const { return diagnostics_.n_warnings(); }
     [[nodiscard]] std::size_t n_lints() const { return diagnostics_.n_lints(); }
     [[nodiscard]] SceneSummary summary() const { return summarize(scene()); }
+
+    /// What the engine needs to prove things about this scene, as texts: the module of the engine
+    /// shares no types with this one.
+    [[nodiscard]] std::vector<std::string> events() const {
+        std::vector<std::string> out;
+        for (const Event& event : scene().events)
+            if (event.kind != EventKind::Camera) out.push_back(lpe::print_event(event));
+        return out;
+    }
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> definitions() const {
+        std::vector<std::pair<std::string, std::string>> out;
+        for (const lpe::NamedExpr& custom : scene().plan.custom)
+            if (custom.expr) out.emplace_back(custom.name, custom.text);
+        return out;
+    }
+    [[nodiscard]] std::string_view lpe_table() const {
+        return scene().plan.table == lpe::BuiltinTable::Arnold7 ? "arnold7" : "reference";
+    }
+    /// Per layer, in the summary's order: camera rays and filter that it shares with layers of the
+    /// same pair.
+    [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> layer_samples() const {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+        for (const PlannedDriver& driver : scene().plan.drivers)
+            for (const std::uint32_t layer : driver.layers)
+                out.emplace_back(scene().plan.layers[layer].pass, scene().plan.layers[layer].view);
+        return out;
+    }
 
     /// Renders; `progress` is called with a RenderProgress. A Ctrl-C ends it early and is told by `interrupted`.
     nb::object render(const nb::object& progress);
@@ -265,6 +296,16 @@ void add_render(nb::module_& module) {
         .def_prop_ro("n_warnings", &CompiledScene::n_warnings, "Warnings, also those not kept.")
         .def_prop_ro("n_lints", &CompiledScene::n_lints, "Lints, also those not kept.")
         .def("summary", &CompiledScene::summary, "What the scene holds; only if it is usable.")
+        .def_prop_ro("events", &CompiledScene::events,
+                     "Every event that its paths can be made of, as text; only if it is usable.")
+        .def_prop_ro("definitions", &CompiledScene::definitions,
+                     "Name and text of the expressions that it defines; only if it is usable.")
+        .def_prop_ro("lpe_table", &CompiledScene::lpe_table,
+                     "`reference` or `arnold7`; only if it is usable.")
+        .def_prop_ro(
+            "layer_samples", &CompiledScene::layer_samples,
+            "Two numbers a layer of the summary: layers with the same two are sums of the "
+            "same samples and can be added up.")
         .def("render", &CompiledScene::render, "progress"_a = nb::none(),
              nb::sig("def render(self, progress: collections.abc.Callable[[RenderProgress], "
                      "object] | None = None) -> Outcome"),

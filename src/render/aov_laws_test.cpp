@@ -334,6 +334,20 @@ TEST(Albedo, ProbesAreNotClamped) {
         << "the clamp must have acted";
 }
 
+TEST(Albedo, ExposureBrightensLightAndNoAlbedo) {
+    const auto with = [](std::string_view camera) {
+        std::string text = plane_scene(kPlaneShader);
+        text.insert(text.find(" position "), camera);
+        return render(text, in_memory({"diffuse", "diffuse_albedo", "albedo"}));
+    };
+    const Picture plain = with(""), exposed = with(" exposure 3\n");
+    EXPECT_TRUE(check_identical(exposed, "albedo", plain, "albedo"));
+    EXPECT_TRUE(check_identical(exposed, "diffuse_albedo", plain, "diffuse_albedo"));
+    ASSERT_TRUE(check_lit(plain, "diffuse"));
+    for (std::size_t i = 0; i < plain.n_pixels(); ++i)
+        EXPECT_FLOAT_EQ(exposed.color("diffuse", i).g, plain.color("diffuse", i).g * 8);
+}
+
 // Clamping ---------------------------------------------------------------------------------------------------------------
 
 TEST(Clamping, KeepsSums) {

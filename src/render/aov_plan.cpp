@@ -4,10 +4,10 @@
 #include <array>
 #include <set>
 
-#include "lpe/algebra.h"
 #include "lpe/builtins.h"
 #include "lpe/lint.h"
 #include "lpe/parse.h"
+#include "lpe/regions.h"
 #include "scene/graph.h"
 
 namespace lightsieve {
@@ -95,6 +95,7 @@ class Planner {
         plan_.table = table_.table();
         plan_.light_groups.assign(input_.light_groups.begin(), input_.light_groups.end());
         define_expressions();
+        plan_.custom = table_.custom();
         gather_outputs();
         resolve();
         compile();
@@ -121,10 +122,12 @@ class Planner {
     }
 
     void define_expressions() {
+        if (input_.options.lpe_standard) table_.require_standard();
         for (const auto& [text, where] : option_strings(input_.graph, "light_path_expressions"))
             table_.define(text, where, diagnostics_);
         for (const std::string& text : input_.options.lpes)
             table_.define(text, lpe::stand_alone(text, "<--lpe>"), diagnostics_);
+        table_.resolve(diagnostics_);
     }
 
     void gather_outputs() {
@@ -392,7 +395,7 @@ class Planner {
     std::vector<OutputString> outputs_;
 };
 
-/// Looks among the layers of one file for sets that add up, and proves them.
+/// Looks among the layers of one file for sets that add up, custom ones too, and proves them.
 class PartitionFinder {
   public:
     PartitionFinder(const AovPlan& plan, std::size_t driver, std::span<const Event> events)
@@ -404,88 +407,53 @@ class PartitionFinder {
     }
 
     std::vector<std::string> find() {
-        for (const PlannedLayer* whole : layers_) {
-            if (whole->select != lpe::GroupSelect::All) continue;
-            try_groups(*whole);
-            if (whole->info.aov == "RGBA") {
-                for (const lpe::BuiltinTable table :
-                     {lpe::BuiltinTable::Reference, lpe::BuiltinTable::Arnold7})
-                    for (const std::vector<std::string_view>& set : lpe::additive_sets(table))
-                        try_set(*whole, set);
+        while (!layers_.empty()) {
+            // All layers of a sum must be filtered alike and see the same camera.
+            std::vector<const PlannedLayer*> alike, others;
+            for (const PlannedLayer* layer : layers_) {
+                const bool same =
+                    layer->view == layers_.front()->view && layer->pass == layers_.front()->pass;
+                (same ? alike : others).push_back(layer);
             }
-            const std::string direct = whole->info.aov + "_direct",
-                              indirect = whole->info.aov + "_indirect";
-            try_set(*whole, {direct, indirect});
+            try {
+                find_among(alike);
+            } catch (const InputError&) {
+                // Over the budget of a proof: nothing is claimed.
+            }
+            layers_ = std::move(others);
         }
         return std::move(found_);
     }
 
   private:
-    /// All layers of a sum must be filtered alike and see the same camera.
-    static bool comparable(const PlannedLayer& a, const PlannedLayer& b) {
-        return a.view == b.view && a.pass == b.pass;
+    /// Sums that are claimed for one layer at most.
+    static constexpr std::size_t kMaxSums = 4;
+
+    /// Sums that hold over all paths; for a layer that has none, those that hold in this scene.
+    void find_among(const std::vector<const PlannedLayer*>& layers) {
+        std::vector<lpe::AovRequest> requests;
+        for (const PlannedLayer* layer : layers)
+            requests.push_back(
+                {layer->info.name, layer->expr, layer->select, layer->info.light_group});
+        const std::vector<lpe::Region> everywhere =
+            lpe::regions(requests, lpe::possible_events(requests, plan_.light_groups));
+        const std::vector<lpe::Region> here = lpe::regions(requests, events_);
+        for (std::uint32_t whole = 0; whole < layers.size(); ++whole)
+            if (!remember(layers, lpe::find_sums(everywhere, layers.size(), whole, kMaxSums)))
+                remember(layers, lpe::find_sums(here, layers.size(), whole, kMaxSums));
     }
 
-    const PlannedLayer* layer_of(const PlannedLayer& whole, std::string_view aov) const {
-        for (const PlannedLayer* layer : layers_)
-            if (layer->info.aov == aov && layer->select == lpe::GroupSelect::All &&
-                comparable(*layer, whole))
-                return layer;
-        return nullptr;
-    }
-
-    void try_set(const PlannedLayer& whole, const std::vector<std::string_view>& aovs) {
-        std::vector<lpe::Expr> parts;
-        std::string sum;
-        for (const std::string_view aov : aovs) {
-            const PlannedLayer* layer = layer_of(whole, aov);
-            if (layer == &whole) return;
-            if (layer == nullptr) {
-                const lpe::Expr missing = dead_builtin(aov);
-                if (missing == nullptr) return;
-                parts.push_back(missing);
-                continue;
-            }
-            parts.push_back(layer->expr);
-            sum += (sum.empty() ? "" : " + ") + layer->info.name;
+    bool remember(const std::vector<const PlannedLayer*>& layers,
+                  const std::vector<lpe::Sum>& sums) {
+        for (const lpe::Sum& sum : sums) {
+            std::string text;
+            for (const std::uint32_t part : sum.parts)
+                text += (text.empty() ? " = " : " + ") + layers[part]->info.name;
+            text = layers[sum.whole]->info.name + text;
+            if (std::find(found_.begin(), found_.end(), text) == found_.end())
+                found_.push_back(std::move(text));
         }
-        if (sum.empty()) return;
-        try {
-            if (lpe::check_partition(whole.expr, parts).holds()) remember(whole, sum);
-        } catch (const InputError&) {
-            // Over the budget of a proof: nothing is claimed.
-        }
-    }
-
-    /// The built-in of that name if it takes no path of this scene; null otherwise.
-    lpe::Expr dead_builtin(std::string_view aov) const {
-        const lpe::ExpressionTable table(plan_.table);
-        const lpe::NamedExpr* named = table.find(aov);
-        if (named == nullptr || lpe::shortest_path(named->expr, events_)) return nullptr;
-        return named->expr;
-    }
-
-    /// The groups of an expression partition its light by construction, if all of them and the default one are there.
-    void try_groups(const PlannedLayer& whole) {
-        std::string sum;
-        bool has_default = false;
-        std::set<std::string> split;
-        for (const PlannedLayer* layer : layers_) {
-            if (layer->expr != whole.expr || layer->select == lpe::GroupSelect::All ||
-                !comparable(*layer, whole))
-                continue;
-            if (layer->select == lpe::GroupSelect::Named) split.insert(layer->info.light_group);
-            has_default |= layer->select == lpe::GroupSelect::Default;
-            sum += (sum.empty() ? "" : " + ") + layer->info.name;
-        }
-        const bool all = std::all_of(plan_.light_groups.begin(), plan_.light_groups.end(),
-                                     [&](const std::string& g) { return split.count(g) != 0; });
-        if (has_default && all && !lpe::takes_probe(whole.expr)) remember(whole, sum);
-    }
-
-    void remember(const PlannedLayer& whole, const std::string& sum) {
-        const std::string text = whole.info.name + " = " + sum;
-        if (std::find(found_.begin(), found_.end(), text) == found_.end()) found_.push_back(text);
+        return !sums.empty();
     }
 
     const AovPlan& plan_;

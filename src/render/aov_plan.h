@@ -85,6 +85,7 @@ struct AovPlan {
     bool wants_beauty = false;
     lpe::BuiltinTable table = lpe::BuiltinTable::Reference;  ///< which built-ins the scene uses
     std::vector<std::string> light_groups;  ///< named groups of the scene's lights
+    std::vector<lpe::NamedExpr> custom;     ///< expressions that the scene and the caller define
 };
 
 /// An output string cut into its parts.
@@ -111,9 +112,10 @@ struct PlanInput {
 /// Layers, requests and the compiled program. Cameras, filters and drivers are made by the caller (compile.cpp).
 void plan_layers(const PlanInput& input, AovPlan& plan, Diagnostics& diagnostics);
 
-/// `RGBA = direct + indirect + ...` for every partition among the layers of driver `driver` that the engine proves.
+/// `RGBA = direct + indirect + ...` for sums among the layers of driver `driver` that the engine proves, custom
+/// expressions and light groups included.
 ///
-/// events  of the scene: a built-in that takes none of its paths (volume, without volumes) may be missing from a sum
+/// events  of the scene: what takes none of its paths (volume, without volumes) may be missing from a sum
 [[nodiscard]] std::vector<std::string> proved_partitions(const AovPlan& plan, std::size_t driver,
                                                          std::span<const Event> events);
 

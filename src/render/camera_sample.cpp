@@ -43,6 +43,12 @@ void CameraSampler::weights(const CameraSample& sample, std::vector<float>& out)
     }
 }
 
+void remove_exposure(const CameraSample& sample, std::vector<SampleBuffer::Contribution>& probes) {
+    if (sample.ray.weight == 1 || !(sample.ray.weight > 0)) return;
+    for (SampleBuffer::Contribution& probe : probes)
+        probe.value *= 1 / sample.ray.weight;
+}
+
 float sample_clamp_factor(const Scene& scene, Color beauty) {
     const float largest = max_component(beauty);
     return largest > scene.settings.sample_clamp ? scene.settings.sample_clamp / largest : 1;

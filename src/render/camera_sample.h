@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/sobol.h"
+#include "render/film.h"
 #include "render/scene.h"
 
 namespace lightsieve {
@@ -34,6 +35,9 @@ class CameraSampler {
     const Scene& scene_;
     const Pass& pass_;
 };
+
+/// Takes the camera's exposure out of a sample's albedos: it brightens light, and they are a property of surfaces.
+void remove_exposure(const CameraSample& sample, std::vector<SampleBuffer::Contribution>& probes);
 
 /// AA_sample_clamp: one factor for everything a sample brings.
 [[nodiscard]] float sample_clamp_factor(const Scene& scene, Color beauty);

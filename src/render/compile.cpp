@@ -126,9 +126,9 @@ void Compiler::read_settings() {
     constexpr std::array<std::string_view, 4> kInstructionSets{"", "sse2", "avx2", "avx512"};
     if (std::find(kInstructionSets.begin(), kInstructionSets.end(), options_.isa) ==
         kInstructionSets.end())
-        diagnostics_.error(Code::LimitMemory,
+        diagnostics_.error(Code::UnknownChoice,
                            "no instruction set is called \"" + options_.isa + '"', {},
-                           "sse2, avx2 and avx512 are known");
+                           "one of sse2 avx2 avx512, or none: the best that the processor has");
     scene_->capture = options_.capture;
     scene_->write_files = options_.write_files;
     scene_->background_visibility = option<std::uint8_t>("background_visibility", 255);

@@ -86,7 +86,8 @@ void Compiler::fill_records() {
         for (const LobeInfo& lobe : shader->type().lobes)
             fill(shader->records.emplace_back(), event_of(lobe, shader->labels));
         const bool exits = switch_of(*shader, "exit_to_background"),
-                   thin = switch_of(*shader, "thin_walled");
+                   thin = switch_of(*shader, "thin_walled") ||
+                          switch_of(*shader, "geometry_thin_walled");
         for (std::size_t i = 0; i < shader->records.size(); ++i) {
             shader->records[i].exit_to_background = exits;
             if (shader->records[i].lobe == EventLobe::Specular)

@@ -15,6 +15,13 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
     // The outermost label holds: a wrapper says what its part is called.
     if (const auto* own = node.find<Name>("label"); own != nullptr && wanted.closure.empty())
         wanted.closure = own->str();
+    if (wanted.closure.find('\'') != std::string::npos) {
+        if (prepared_.count(&node) == 0)
+            diagnostics_.error(Code::InvalidValue,
+                               "the label \"" + wanted.closure + "\" has a quote in it",
+                               node.where("label"), "expressions write it between quotes: 'skin'");
+        wanted.closure.clear();
+    }
     const std::pair key(&node, wanted);
     if (const auto known = programs_.find(key); known != programs_.end()) return known->second;
     if (failed_shaders_.count(&node) != 0) return nullptr;
@@ -96,22 +103,28 @@ void Compiler::link_closures(const NodeInstance& node, ShaderProgram& program, i
     }
 }
 
-/// By the parameter `opacity`, which every shader that lets rays through has.
+/// By the parameter for opacity, which every shader that lets rays through has.
 bool Compiler::shader_may_be_transparent(const NodeInstance& node) const {
-    const ParamInfo* opacity = node.type().find("opacity");
-    if (opacity == nullptr) return false;
-    if (node.is_linked("opacity")) return true;
-    if (opacity->type == ParamType::Rgb) return !(node.get<Color>("opacity") == kWhite);
-    return opacity->type == ParamType::Float && node.get<float>("opacity") != 1;
+    for (const char* name : {"opacity", "geometry_opacity"}) {
+        if (node.type().find(name) == nullptr) continue;
+        const auto* color = node.find<Color>(name);
+        const auto* number = node.find<float>(name);
+        if (node.is_linked(name) || (color != nullptr && !(*color == kWhite)) ||
+            (number != nullptr && *number != 1))
+            return true;
+    }
+    return false;
 }
 
 /// What ClosureSet::transmit_shadow says: transmission without caustics.
 bool Compiler::shader_may_tint_shadows(const NodeInstance& node) {
-    const auto* transmission = node.find<float>("transmission");
-    if (transmission == nullptr) return false;
     const auto* caustics = node.find<bool>("caustics");
-    const bool casts_light = caustics != nullptr && *caustics && !node.is_linked("caustics");
-    return !casts_light && (*transmission > 0 || node.is_linked("transmission"));
+    if (caustics != nullptr && *caustics && !node.is_linked("caustics")) return false;
+    for (const char* name : {"transmission", "transmission_weight"}) {
+        const auto* weight = node.find<float>(name);
+        if (weight != nullptr && (*weight > 0 || node.is_linked(name))) return true;
+    }
+    return false;
 }
 
 /// Shapes without a shader are white clay: a lambert with its defaults.

@@ -216,28 +216,30 @@ std::vector<const ShaderProgram*> Compiler::shaders_of(const NodeInstance& node,
     return out;
 }
 
-/// User data `lpe_label` of an instance or, if it has none, of what it shows. Labels of lobes that expressions for any scene
-/// rely on cannot be a shape's.
+/// The user data lpe_label, which an instance takes from its source unless it has its own.
 std::string Compiler::object_label_of(const NodeInstance& node, const NodeInstance& source) {
     const UserData* data = node.find_user_data("lpe_label");
     if (data == nullptr) data = source.find_user_data("lpe_label");
-    if (data == nullptr) return {};
-    if (data->type != ParamType::String || data->n == 0) {
-        diagnostics_.warning(Code::InvalidValue, "lpe_label is not a STRING: it is left out",
-                             data->where, "declare lpe_label constant STRING");
-        return {};
-    }
+    if (data == nullptr || data->n == 0) return "";
+    const auto refuse = [&](const std::string& problem, std::string hint) {
+        diagnostics_.error(Code::ObjectLabel, problem, data->where, std::move(hint));
+        return std::string{};
+    };
+    if (data->type != ParamType::String || data->user_class != UserDataClass::Constant)
+        return refuse("lpe_label of \"" + node.name().str() + "\" is no label",
+                      "declare lpe_label constant STRING");
     std::string label = data->values<Name>()[0].str();
-    for (const char* taken : {"coat", "sheen", "hair", "default"})
-        if (label == taken) {
-            diagnostics_.warning(
-                Code::InvalidValue,
-                fmt::format("\"{}\" is the label of lobes or lights: it cannot be "
-                            "a shape's lpe_label",
-                            label),
-                data->where, "choose another label");
-            return {};
-        }
+    if (label.find('\'') != std::string::npos)
+        return refuse("the object label \"" + label + "\" has a quote in it",
+                      "expressions write it between quotes: 'hero'");
+    const std::vector<std::string>& groups = scene_->summary.light_groups;
+    if (std::find(groups.begin(), groups.end(), label) != groups.end() || label == "default")
+        return refuse("the object label \"" + label + "\" is also a light group",
+                      "rename one of them: an expression could not tell them apart");
+    for (const char* reserved : {"coat", "sheen", "hair"})
+        if (label == reserved)
+            return refuse("the object label \"" + label + "\" is that of a lobe",
+                          "coat, sheen and hair mean lobes; choose another");
     return label;
 }
 

@@ -135,15 +135,10 @@ TEST(ObjectLabels, JoinScatteringAndEmission) {
     EXPECT_TRUE(check_identical(p, "emission", plain, "emission"));
 }
 
-TEST(ObjectLabels, CannotTakeTheNamesOfLobes) {
-    const TestScene scene(floor_scene(lambert("top", 0.5F),
-                                      " declare lpe_label constant STRING\n lpe_label \"coat\""),
-                          in_memory(), {"cannot be a shape's lpe_label"});
-    EXPECT_EQ(scene.diagnostics().n_warnings(), 1U);
-    const TestScene number(
-        floor_scene(lambert("top", 0.5F), " declare lpe_label constant INT\n lpe_label 3"),
-        in_memory(), {"lpe_label is not a STRING"});
-    EXPECT_EQ(number.diagnostics().n_warnings(), 1U);
+TEST(ClosureLabels, CannotHaveQuotes) {
+    const std::string text =
+        floor_scene(node("oren_nayar_diffuse_bsdf", "top", " label \"o'clock\""));
+    EXPECT_THROW(render(text), std::exception);
 }
 
 TEST(ShadersOfShaders, ArePathsInTheLog) {
@@ -162,7 +157,7 @@ TEST(TwoSided, ShadesEachSideByItsOwn) {
                                 node("two_sided", "top", " front \"white\"\n back \"grey\"");
     const auto seen = [&](float y) {
         return render(frame_text(8, 8, 2, ortho_camera({0, y, 0}, {0, 0, 0}, 0.5F, {0, 0, 1})) +
-                      shaders + floor("f", 0, 1, "top") +
+                      shaders + floor("plane", 0, 1, "top") +
                       node("skydome_light", "sky", " camera 0"));
     };
     EXPECT_TRUE(check_mean(seen(2), "RGBA", Color::grey(0.8F), 1e-3));
@@ -179,7 +174,7 @@ TEST(RaySwitch, ShowsEachRayTypeItsOwn) {
     const auto scene = [&](std::string_view wall) {
         return frame_text(16, 12, 5, persp_camera({0, 1, 3}, {0, 0.4F, 0}, 40),
                           " GI_diffuse_depth 1\n GI_specular_depth 1") +
-               shaders + floor("f", 0, 1, "ground") +
+               shaders + floor("plane", 0, 1, "ground") +
                quad("wall", {-1, 0, -1}, {1, 0, -1}, {1, 1, -1}, {-1, 1, -1}, wall);
     };
     const std::vector<std::string> aovs{"diffuse_indirect", "specular_indirect", "emission"};
@@ -195,8 +190,9 @@ TEST(MixShader, MixesTransparencyToo) {
     const std::string shaders =
         lambert("solid", 0.5F) + node("lambert", "hole", " opacity 0 0 0") +
         node("mix_shader", "top", " shader1 \"solid\"\n shader2 \"hole\"\n mix 0.25");
-    const Picture p = render(frame_text(8, 8, 3, from_above(0.5F)) + shaders +
-                             floor("f", 0, 1, "top") + node("skydome_light", "sky", " camera 0"));
+    const Picture p =
+        render(frame_text(8, 8, 3, from_above(0.5F)) + shaders + floor("plane", 0, 1, "top") +
+               node("skydome_light", "sky", " camera 0"));
     EXPECT_NEAR(p.alpha("RGBA", 20), 0.75, 1e-5);
     EXPECT_TRUE(check_mean(p, "RGBA", Color::grey(0.375F), 1e-3));
 }

@@ -1,9 +1,10 @@
-// Buckets over threads, samples over pixels, finished buckets to drivers.
+// Buckets over threads, samples over pixels, buckets to drivers.
 #include "render/render.h"
 
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/version.h"
@@ -43,6 +44,11 @@ struct DroppedSample {
 /// As many are described, for somebody who wants to trace them again.
 constexpr std::size_t kDescribedDrops = 10;
 
+/// Samples that a pixel takes in one go. A bucket of more fills evenly: when it is stopped it shows all of itself, with noise.
+constexpr int kSamplesInOneGo = 64;
+/// Samples of a thread between two reports of progress: some hundred reports a second.
+constexpr std::uint64_t kSamplesAReport = 1024;
+
 /// What one thread needs; made once, used for many buckets.
 struct Worker {
     explicit Worker(const Scene& scene) : integrator(scene), film(scene.plan) {}
@@ -52,6 +58,7 @@ struct Worker {
     std::vector<float> weights;
     std::vector<std::vector<float>> layers;  ///< by layer of the plan
     std::vector<DroppedSample> dropped;      ///< the first few
+    std::uint64_t n_unreported = 0;          ///< samples since the last report of progress
 };
 
 class Renderer {
@@ -70,7 +77,10 @@ class Renderer {
     [[nodiscard]] ImageHeader header_of(const PlannedDriver& driver, std::size_t index) const;
     void open_drivers();
     void render_bucket(Worker& worker, const BucketRect& rect);
-    bool render_pass(Worker& worker, const Pass& pass, const BucketRect& rect);
+    void render_pass(Worker& worker, const Pass& pass, const BucketRect& rect);
+    bool take_samples(Worker& worker, const CameraSampler& camera, const BucketRect& rect, int x,
+                      int y, int first, int n);
+    void report_progress(Worker& worker);
     static void note_dropped(Worker& worker, int x, int y, int index);
     void deliver(const Worker& worker, const BucketRect& rect);
     void close_drivers();
@@ -86,7 +96,8 @@ class Renderer {
     Diagnostics& diagnostics_;
     bool capture_, write_files_;
     RenderResult result_;
-    std::mutex output_mutex_, workers_mutex_;
+    std::mutex output_mutex_, progress_mutex_, workers_mutex_;
+    std::atomic<std::uint64_t> samples_done_ = 0;
     std::vector<std::unique_ptr<Worker>> workers_, idle_;
     std::uint64_t samples_total_ = 0;
     Clock::time_point start_;
@@ -173,45 +184,64 @@ RenderResult Renderer::run() {
         workers_.erase(at);
     });
     result_.stopped = stopped();
+    result_.samples = samples_done_;
     result_.seconds = seconds_since(start_) - result_.output_seconds;
     close_drivers();
     report();
     return std::move(result_);
 }
 
+/// Renders a bucket, or what there is time for: pixels are divided by the filter weight that they got, so a bucket that was
+/// stopped holds the right means of fewer samples, and zero where there are none.
 void Renderer::render_bucket(Worker& worker, const BucketRect& rect) {
     worker.layers.resize(scene_.plan.layers.size());
     for (std::size_t p = 0; p < scene_.plan.passes.size(); ++p) {
-        if (!render_pass(worker, scene_.plan.passes[p], rect)) return;
+        render_pass(worker, scene_.plan.passes[p], rect);
         for (std::size_t l = 0; l < scene_.plan.layers.size(); ++l)
             if (scene_.plan.layers[l].pass == p)
                 worker.film.resolve(scene_.plan.layers[l], worker.layers[l]);
     }
     deliver(worker, rect);
+    report_progress(worker);
 }
 
-/// False if the render was stopped: the bucket is then not delivered.
-bool Renderer::render_pass(Worker& worker, const Pass& pass, const BucketRect& rect) {
+void Renderer::render_pass(Worker& worker, const Pass& pass, const BucketRect& rect) {
     const CameraSampler camera(scene_, pass);
     worker.film.begin(pass, rect.width, rect.height);
-    for (int y = 0; y < rect.height; ++y)
-        for (int x = 0; x < rect.width; ++x) {
-            if (stopped()) return false;
-            for (int i = 0; i < scene_.settings.samples; ++i) {
-                const std::uint64_t dropped_before = worker.integrator.counts.dropped;
-                const CameraSample sample =
-                    camera.sample(rect.x + x, rect.y + y, static_cast<std::uint32_t>(i));
-                worker.integrator.trace(sample.ray, sample.time, sample.camera_from_world,
-                                        sample.sampler, worker.sample);
-                if (worker.integrator.counts.dropped != dropped_before)
-                    note_dropped(worker, rect.x + x, rect.y + y, i);
-                camera.weights(sample, worker.weights);
-                worker.film.add(x, y, worker.sample,
-                                sample_clamp_factor(scene_, worker.sample.beauty), sample.offset,
-                                worker.weights);
-            }
-        }
+    for (int first = 0, n = 0; first < scene_.settings.samples; first += n) {
+        n = std::min(kSamplesInOneGo, scene_.settings.samples - first);
+        for (int y = 0; y < rect.height; ++y)
+            for (int x = 0; x < rect.width; ++x)
+                if (!take_samples(worker, camera, rect, x, y, first, n)) return;
+    }
+}
+
+/// Takes samples [first, first + n) of a pixel. False if the render was stopped.
+bool Renderer::take_samples(Worker& worker, const CameraSampler& camera, const BucketRect& rect,
+                            int x, int y, int first, int n) {
+    for (int i = first; i < first + n; ++i) {
+        if (stopped()) return false;
+        const std::uint64_t dropped_before = worker.integrator.counts.dropped;
+        const CameraSample sample =
+            camera.sample(rect.x + x, rect.y + y, static_cast<std::uint32_t>(i));
+        worker.integrator.trace(sample.ray, sample.time, sample.camera_from_world, sample.sampler,
+                                worker.sample);
+        if (worker.integrator.counts.dropped != dropped_before)
+            note_dropped(worker, rect.x + x, rect.y + y, i);
+        remove_exposure(sample, worker.sample.probes);
+        camera.weights(sample, worker.weights);
+        worker.film.add(x, y, worker.sample, sample_clamp_factor(scene_, worker.sample.beauty),
+                        sample.offset, worker.weights);
+        if (++worker.n_unreported == kSamplesAReport) report_progress(worker);
+    }
     return true;
+}
+
+void Renderer::report_progress(Worker& worker) {
+    samples_done_ += std::exchange(worker.n_unreported, 0);
+    if (!control_.progress) return;
+    const std::lock_guard lock(progress_mutex_);
+    control_.progress({samples_done_, samples_total_, seconds_since(start_)});
 }
 
 void Renderer::note_dropped(Worker& worker, int x, int y, int index) {
@@ -220,7 +250,7 @@ void Renderer::note_dropped(Worker& worker, int x, int y, int index) {
         worker.dropped.push_back({y, x, index, counts.dropped_depth, counts.dropped_event});
 }
 
-/// Hands a finished bucket to drivers and memory, one bucket at a time.
+/// Hands a bucket to drivers and memory, one bucket at a time.
 void Renderer::deliver(const Worker& worker, const BucketRect& rect) {
     const std::lock_guard lock(output_mutex_);
     const Clock::time_point start = Clock::now();
@@ -245,12 +275,7 @@ void Renderer::deliver(const Worker& worker, const BucketRect& rect) {
                         result_.layers[l].pixels.begin() + static_cast<std::ptrdiff_t>(to));
         }
     }
-    result_.samples +=
-        static_cast<std::uint64_t>(rect.width) * static_cast<std::uint64_t>(rect.height) *
-        static_cast<std::uint64_t>(scene_.settings.samples) * scene_.plan.passes.size();
     result_.output_seconds += seconds_since(start);
-    if (control_.progress)
-        control_.progress({result_.samples, samples_total_, seconds_since(start_)});
 }
 
 void Renderer::close_drivers() {

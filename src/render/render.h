@@ -88,7 +88,7 @@ struct RenderProgress {
 /// How a caller watches and stops a render.
 struct RenderControl {
     std::function<void(const RenderProgress&)>
-        progress;  ///< called from one thread at a time, after each bucket
+        progress;  ///< called from one thread at a time, every thousand samples of each thread
     const std::atomic<bool>* stop =
         nullptr;  ///< set it to end early: within a fraction of a second
 };
@@ -101,7 +101,7 @@ struct FrameLayer {
 };
 
 struct RenderResult {
-    bool stopped = false;               ///< ended early: what was done is in the files
+    bool stopped = false;               ///< ended early: the files have the samples taken so far
     double seconds = 0;                 ///< sampling time, without compile and file output
     double output_seconds = 0;          ///< spent in drivers
     std::uint64_t samples = 0;          ///< camera samples taken

@@ -314,6 +314,41 @@ TEST(LightMultipliers, TransmissionHidesLightsBehindGlass) {
     EXPECT_TRUE(check_constant(seen, "transmission_direct", {0.25F, 0.5F, 0.5F}, 1e-5));
 }
 
+TEST(LightMultipliers, SssScalesWhatScattersBelowTheSurface) {
+    const auto with = [](std::string_view shader, std::string_view light,
+                         const std::vector<std::string>& warnings) {
+        const std::string text =
+            frame_text(8, 8, 2, from_above(1)) +
+            node("standard_surface", "skin",
+                 " base 1\n base_color 0.5 0.5 0.5\n specular 0\n subsurface 0.5\n" +
+                     std::string(shader)) +
+            floor("plane", 0, 2, "skin") +
+            node("distant_light", "sun", " direction 0 -1 0\n" + std::string(light)) +
+            // Thin walls pass light on to the other side.
+            node("distant_light", "below", " direction 0 1 0\n" + std::string(light));
+        return render(TestScene(text, in_memory({"diffuse", "sss"}), warnings));
+    };
+    const auto mean = [](const Picture& p, const char* layer) {
+        return static_cast<double>(p.mean(layer).g);
+    };
+    // Subsurface scattering is drawn as diffuse reflection for now; its light is that of sss all the same.
+    const std::vector<std::string> drawn_otherwise{"subsurface scattering is not supported yet"};
+    const Picture plain = with("", "", drawn_otherwise),
+                  none = with("", " sss 0", drawn_otherwise),
+                  no_diffuse = with("", " diffuse 0", drawn_otherwise);
+    ASSERT_TRUE(check_lit(plain, "sss"));
+    EXPECT_TRUE(check_black(none, "sss"));
+    EXPECT_NEAR(mean(none, "diffuse"), mean(plain, "diffuse"), 1e-6);
+    EXPECT_NEAR(mean(no_diffuse, "sss"), mean(plain, "sss"), 1e-6);
+    EXPECT_TRUE(check_black(no_diffuse, "diffuse"));
+    // In thin walls the same lobe is diffuse transmission: the factor is that of diffuse light.
+    const Picture thin = with(" thin_walled on", "", {}),
+                  thin_none = with(" thin_walled on", " sss 0", {});
+    ASSERT_TRUE(check_lit(thin, "sss"));
+    EXPECT_TRUE(check_identical(thin_none, "sss", thin, "sss"));
+    EXPECT_TRUE(check_black(with(" thin_walled on", " diffuse 0", {}), "sss"));
+}
+
 TEST(LightGroupsOfShapes, ChooseLightsAndShadows) {
     const std::string lights =
         node("distant_light", "a", " direction 0 -1 0\n intensity 3\n color 1 0 0") +

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -51,8 +53,24 @@ def test_noise_is_no_scene(tmp_path: Path) -> None:
     assert len(codes(scene)) >= 1
 
 
-def test_an_instruction_set_that_does_not_exist() -> None:
-    assert codes(ROOT / "tests/scenes/still.ass", isa="avx9") == ["limit-memory"]
+def test_a_scene_that_does_not_fit_into_memory(tmp_path: Path) -> None:
+    n = 4_000_000
+    scene = tmp_path / "large.ass"
+    scene.write_text(f"polymesh {{ name large vlist {n} 1 VECTOR\n" + "0 0 0\n" * n + "}\n")
+    # Not from the start: the libraries themselves reserve more than a gigabyte of addresses.
+    code = (
+        "import resource, sys, lightsieve.rendering\n"
+        "from lightsieve.cli.main import main\n"
+        "now = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (now + 64_000_000,) * 2)\n"
+        f"sys.argv = ['lightsieve', 'check', {str(scene)!r}]\n"
+        "main()\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 1, done.stderr
+    assert done.stderr.startswith("error[limit-memory]: not enough memory\n")
 
 
 def test_light_that_is_infinite_is_left_out_and_described(tmp_path: Path) -> None:

@@ -141,6 +141,12 @@ def test_strict_makes_unknown_parameters_errors(run: Run, still: Path, tmp_path:
     assert not (tmp_path / "still.exr").exists()
 
 
+def test_an_instruction_set_that_does_not_exist_is_a_usage_error(run: Run, still: Path) -> None:
+    done = run("render", still.name, *FAST, "--isa", "avx9")
+    assert done.code == 2
+    assert "'avx9' is not one of 'sse2', 'avx2', 'avx512'" in done.err
+
+
 def test_missing_scene(run: Run) -> None:
     done = run("render", "nowhere.ass")
     assert done.code == 1

@@ -152,6 +152,13 @@ def test_ctrl_c_raises_keyboard_interrupt() -> None:
     assert done.stdout == "interrupted\n"
 
 
+def test_an_instruction_set_that_does_not_exist() -> None:
+    (error,) = lightsieve.check(STILL, isa="avx9").diagnostics
+    assert error.code == "unknown-choice"
+    assert 'no instruction set is called "avx9"' in error.message
+    assert "avx512" in error.hint
+
+
 def test_lpe_module() -> None:
     lpe = lightsieve.lpe
     assert lpe.match("C<RD>.*", "C RD TS L'key'")

@@ -7,7 +7,11 @@ is loaded only then, so that a command in a pipe starts quickly.
 from __future__ import annotations
 
 import json
+import os
+import re
+import shutil
 import sys
+import textwrap
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -81,24 +85,135 @@ def say(text: str) -> None:
     typer.echo(text, err=True)
 
 
+def _width() -> int:
+    """Columns for running text: the terminal's, at most what is easy to read."""
+    return max(40, min(shutil.get_terminal_size((100, 24)).columns, 100))
+
+
+def listed(names: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b, and c`."""
+    if len(names) < 3:
+        return " and ".join(names)
+    return f"{', '.join(names[:-1])}, and {names[-1]}"
+
+
+def print_text(text: str) -> None:
+    """Prints running text, wrapped at words."""
+    for line in textwrap.wrap(text, _width(), break_long_words=False, break_on_hyphens=False):
+        typer.echo(line)
+
+
+def print_title(text: str) -> None:
+    """Prints the line that says what all that follows is about."""
+    typer.echo(_styled(text, bold=True))
+
+
+def print_heading(text: str) -> None:
+    """Prints the line above some items."""
+    typer.echo(_styled(f"{text}:", bold=True))
+
+
+def print_item(mark: str, text: str, *about: str) -> None:
+    """Prints something short with what it is and, below it, running text about it.
+
+    Args:
+        mark: What stands before it.
+        text: It.
+        *about: Each begins in a new line.
+    """
+    typer.echo(f"  {_styled(mark, bold=True)}  {_styled(text, fg='cyan')}")
+    indent = " " * (4 + len(mark))
+    for words in about:
+        for line in textwrap.wrap(
+            words, _width() - len(indent), break_long_words=False, break_on_hyphens=False
+        ):
+            typer.echo(indent + line)
+
+
+def _styled(text: str, **style: Any) -> str:
+    """Text in colour or bold, on a terminal only."""
+    wants_colour = sys.stdout.isatty() and not os.environ.get("NO_COLOR")
+    return typer.style(text, **style) if wants_colour else text
+
+
 def print_diagnostics(items: Iterable[Diagnostic]) -> None:
-    """Prints errors, warnings and lints as a person reads them, to standard error."""
+    """Prints errors, warnings and lints as a person reads them, to standard error.
+
+    On a terminal in colour (unless NO_COLOR is set) and fitted to its width; else as they are.
+    """
     if not sys.stderr.isatty():
         for item in items:
             say(item.rendered)
+        return
+    # Lines are fitted here, not wrapped by rich, so that carets stay under what they point at.
+    width = shutil.get_terminal_size().columns
+    if os.environ.get("NO_COLOR"):
+        for item in items:
+            say(fitted(item.rendered, width))
         return
     from rich.console import Console
 
     console = Console(stderr=True, soft_wrap=True, highlight=False)
     for item in items:
-        console.print(_coloured(item))
+        console.print(_coloured(item, fitted(item.rendered, width)))
 
 
-def _coloured(item: Diagnostic) -> Any:
+_QUOTED = re.compile(r" *\d+ \| ")
+
+
+def fitted(rendered: str, width: int) -> str:
+    """A rendered diagnostic whose lines are no longer than a terminal is wide.
+
+    Args:
+        rendered: Message, quoted line, carets, hint, notes.
+        width: Columns.
+
+    Returns:
+        The same; a long quoted line is cut down to what surrounds the carets, other long lines go
+        on in the next one.
+    """
+    lines = rendered.splitlines()
+    out: list[str] = []
+    while lines:
+        line = lines.pop(0)
+        quoted = _QUOTED.match(line)
+        if quoted and lines and "^" in lines[0]:
+            out += _cut(line, lines.pop(0), quoted.end(), width)
+        elif len(line) > width:
+            pad = " " * (len(line) - len(line.lstrip()) + 2)
+            out += textwrap.wrap(
+                line,
+                width,
+                subsequent_indent=pad,
+                break_long_words=False,
+                break_on_hyphens=False,
+            )
+        else:
+            out.append(line)
+    return "\n".join(out)
+
+
+def _cut(line: str, carets: str, begin: int, width: int) -> tuple[str, str]:
+    """A quoted line and the carets below it, cut to a width; both have a margin up to `begin`."""
+    text, marks = line[begin:], carets[begin:]
+    room = max(width - begin, 8)
+    if len(text) <= room:
+        return line, carets
+    # As much of what is pointed at as fits, a little after it, and what stands before.
+    first = min(marks.index("^"), max(0, min(len(marks) + 3, len(text)) - room))
+    shown = text[first : first + room]
+    if first > 0:
+        shown = "..." + shown[3:]
+    if first + room < len(text):
+        shown = shown[:-3] + "..."
+    return line[:begin] + shown, (carets[:begin] + marks[first : first + room]).rstrip()
+
+
+def _coloured(item: Diagnostic, rendered: str) -> Any:
     """The rendered text with its parts in colour."""
     from rich.text import Text
 
-    text = Text(item.rendered)
+    text = Text(rendered)
     style = _STYLES[item.severity]
     text.highlight_regex(rf"(?m)^[^\n]*?{item.severity}\[[^\]]*\]:", "bold")
     text.highlight_words([f"{item.severity}[{item.code}]"], style)

@@ -1,13 +1,14 @@
-"""Options that the commands which read a scene share."""
+"""What the commands that read a scene share: options, and how they say what they found."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, Unpack
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Unpack
 
 import typer
 
 from lightsieve.cli import _signals
+from lightsieve.cli._output import plural
 
 if TYPE_CHECKING:
     from lightsieve import rendering
@@ -28,6 +29,30 @@ Assignments = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="NODE.PARAM=VALUE", help="Change a parameter; may be repeated."),
 ]
+
+DIAGNOSTICS_JSON = {
+    "errors": "how many",
+    "warnings": "how many",
+    "lints": "how many",
+    "diagnostics": "the first 20 errors and 200 warnings and lints",
+}
+"""Keys of `diagnostics_document`, for the commands' own `JSON`."""
+
+
+def diagnostics_document(scene: CompiledScene) -> dict[str, Any]:
+    """What was found wrong, as `--json` prints it."""
+    return {
+        "errors": scene.n_errors,
+        "warnings": scene.n_warnings,
+        "lints": scene.n_lints,
+        "diagnostics": [item.to_dict() for item in scene.diagnostics],
+    }
+
+
+def count_text(scene: CompiledScene) -> str:
+    """`1 error, 2 warnings, no lints`."""
+    counts = [(scene.n_errors, "error"), (scene.n_warnings, "warning"), (scene.n_lints, "lint")]
+    return ", ".join(plural(n, noun) if n else f"no {noun}s" for n, noun in counts)
 
 
 def compile_scene(

@@ -11,20 +11,26 @@ from lightsieve.cli import _output, _scene_options
 from lightsieve.cli._output import plural
 
 if TYPE_CHECKING:
-    from lightsieve._core import CompiledScene, SceneSummary
+    from lightsieve._core import SceneSummary
+    from lightsieve.survey import Missing, Survey
+
+# Lines of one kind that are printed; --json has all.
+_MAX_LINES = 8
 
 EXAMPLE = "lightsieve check shot.ass --strict"
 JSON = {
     "scene": "the file",
     "ok": "true if there are no errors",
-    "errors": "how many",
-    "warnings": "how many",
-    "lints": "how many",
-    "diagnostics": "the first 20 errors and 200 warnings and lints",
+    **_scene_options.DIAGNOSTICS_JSON,
     "summary": "null if errors forbid rendering, else an object: `width`, `height`, "
     "`samples_per_pixel`, `shapes`, `instances`, `triangles`, `spheres`, `lights`, `shaders`, "
     "`light_groups`, `expressions`, `states`, `atoms`, `files` (each `path` and `layers`: `name`, "
     "`aov`, `type`, `expression`, `light_group`), `partitions`",
+    "aovs": "null if errors forbid rendering or the proofs would take too long, else an object: "
+    "`sums` (each `whole`, `parts`, `everywhere`: over all paths, not only those of this scene, "
+    "`lost_elsewhere`: null or `text`, `words`), `missing` (null, or what the layers that come "
+    "nearest to the beauty leave over: `parts`, `expression`, `builtins`, `example`, `left_out`), "
+    "`equal` and `contained` (pairs of names), `dead` (AOVs that are black in this scene)",
 }
 
 
@@ -91,14 +97,59 @@ def _print_summary(scene: str, summary: SceneSummary) -> None:
             if of == index
         ]
         rows.append(("file", f"{path}: {', '.join(names)}"))
-    rows.extend(("proved", partition) for partition in summary.partitions)
     _output.print_table(rows, ["bold"])
 
 
-def count_text(scene: CompiledScene) -> str:
-    """`1 error, 2 warnings, no lints`."""
-    counts = [(scene.n_errors, "error"), (scene.n_warnings, "warning"), (scene.n_lints, "lint")]
-    return ", ".join(plural(n, noun) if n else f"no {noun}s" for n, noun in counts)
+def _survey_rows(survey: Survey) -> list[tuple[str, str]]:
+    """What is told of a survey, one line a fact."""
+    sums = []
+    for one in survey.sums:
+        text = f"{one.whole} = {' + '.join(one.parts)}"
+        if one.lost_elsewhere is not None:
+            text += f"  (here; elsewhere {one.lost_elsewhere} would be lost)"
+        sums.append(text)
+    rows = _lines("adds up", sums)
+    if survey.missing is not None:
+        rows += _missing_rows(survey.missing)
+    rows += _lines("same", [f"{a} and {b} take the same paths" for a, b in survey.equal])
+    rows += _lines("inside", _inside(survey))
+    if survey.dead:
+        rows.append(("black", f"{_output.listed(survey.dead)}: this scene makes no such paths"))
+    return rows
+
+
+def _missing_rows(missing: Missing) -> list[tuple[str, str]]:
+    need = f"an AOV {missing.expression}"
+    if missing.builtins:
+        need = f"{_output.listed(missing.builtins)}, or one AOV {missing.expression}"
+    texts = [
+        need,
+        f"to add up to RGBA with {_output.listed(missing.parts)}",
+        f"so far {missing.example} is in none: {missing.example.words}",
+    ]
+    for one in missing.left_out:
+        texts.append(
+            f"{one.name} cannot be added: with {one.overlaps} it would count {one.example} twice"
+        )
+    return _lines("missing", texts)
+
+
+def _lines(head: str, texts: list[str]) -> list[tuple[str, str]]:
+    rows = [(head if i == 0 else "", text) for i, text in enumerate(texts[:_MAX_LINES])]
+    if len(texts) > _MAX_LINES:
+        rows.append(("", f"and {len(texts) - _MAX_LINES} more, see --json"))
+    return rows
+
+
+def _inside(survey: Survey) -> list[str]:
+    """Containments that do not follow from other lines."""
+    pairs = set(survey.contained)
+    parts = {(part, one.whole) for one in survey.sums for part in one.parts}
+    return [
+        f"{a} is a part of {b}"
+        for a, b in survey.contained
+        if (a, b) not in parts and not any((a, c) in pairs and (c, b) in pairs for c, _ in pairs)
+    ]
 
 
 def command(
@@ -114,7 +165,8 @@ def command(
     """Report every error and lint of a scene.
 
     Reads and compiles everything, renders nothing; then says what the scene holds, what a render
-    would write, and which sums of its AOVs were proved.
+    would write, and what its AOVs are to one another: which add up (proved over all paths), what
+    is missing, which are the same, contained in others, or black in this scene.
     """
     compiled = _scene_options.compile_scene(
         scene,
@@ -125,22 +177,27 @@ def command(
         lpe_table=lpe_table or "",
     )
     summary = compiled.summary() if compiled.usable else None
+    found = None
+    if compiled.usable:
+        from lightsieve.survey import survey
+
+        found = survey(compiled)
     if json:
         _output.print_json(
             {
                 "scene": str(scene),
                 "ok": compiled.n_errors == 0,
-                "errors": compiled.n_errors,
-                "warnings": compiled.n_warnings,
-                "lints": compiled.n_lints,
-                "diagnostics": [item.to_dict() for item in compiled.diagnostics],
+                **_scene_options.diagnostics_document(compiled),
                 "summary": None if summary is None else summary_document(summary),
+                "aovs": None if found is None else found.to_dict(),
             }
         )
     else:
         _output.print_diagnostics(compiled.diagnostics)
         if summary is not None:
             _print_summary(str(scene), summary)
-        typer.echo(count_text(compiled))
+        if found is not None:
+            _output.print_table(_survey_rows(found), ["bold"])
+        typer.echo(_scene_options.count_text(compiled))
     if compiled.n_errors:
         raise typer.Exit(1)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 import typer
 
-from lightsieve import lpe
-from lightsieve.cli import _output
+from lightsieve.cli import _lpe_options, _output
 
 EXAMPLE = """lightsieve lpe match diffuse "C RD L" "C <RS'coat'> L'key'" """.strip()
 JSON = {
@@ -18,9 +17,7 @@ JSON = {
 
 
 def command(
-    expression: Annotated[
-        str, typer.Argument(metavar="EXPR", help="An expression, or the name of a built-in AOV.")
-    ],
+    expression: Annotated[str, typer.Argument(metavar="EXPR", help=_lpe_options.EXPRESSION_HELP)],
     paths: Annotated[
         list[str],
         typer.Argument(
@@ -28,23 +25,24 @@ def command(
             help="Events separated by blanks, with or without the angle brackets.",
         ),
     ],
-    lpe_table: Annotated[
-        Literal["reference", "arnold7"],
-        typer.Option(help="Which reading of the built-ins' names."),
-    ] = "reference",
+    definitions: _lpe_options.Definitions = None,
+    lpe_standard: _lpe_options.LpeStandard = False,
+    lpe_table: _lpe_options.LpeTable = None,
     json: _output.Json = False,
 ) -> None:
     """Say which paths an expression takes.
 
     Exit code 1 if one of them is not taken.
     """
-    text = lpe.resolve(expression, lpe_table)
-    parsed = lpe.parse(text)
-    taken = [(path, lpe.match(parsed, path)) for path in paths]
+    context = _lpe_options.context(None, lpe_table, lpe_standard, definitions)
+    from lightsieve import lpe
+
+    parsed = lpe.parse(expression, context)
+    taken = [(path, parsed.match(path)) for path in paths]
     if json:
         _output.print_json(
             {
-                "expression": text,
+                "expression": parsed.text,
                 "paths": [{"path": path, "taken": yes} for path, yes in taken],
                 "lints": [lint.to_dict() for lint in parsed.lints],
             }

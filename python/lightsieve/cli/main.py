@@ -6,6 +6,7 @@ import os
 import pkgutil
 import sys
 import traceback
+from collections.abc import Sequence
 from importlib import import_module
 from typing import Annotated, Any, NoReturn
 
@@ -14,7 +15,7 @@ import typer
 import lightsieve
 from lightsieve import cli
 from lightsieve.cli import _output
-from lightsieve.errors import LightsieveError
+from lightsieve.errors import LightsieveError, without_place
 
 # What a group of commands is for; a file `exr_info.py` belongs to the group `exr`.
 GROUPS = {
@@ -24,6 +25,12 @@ GROUPS = {
 
 EXIT_INPUT = 1
 EXIT_BUG = 3
+# Made beforehand: there may be no memory for it later.
+_OUT_OF_MEMORY = without_place(
+    "limit-memory",
+    "not enough memory",
+    "smaller pictures or scenes, or a machine with more memory",
+)
 
 
 def _print_version(wanted: bool) -> None:
@@ -46,11 +53,39 @@ def _top(
     """
 
 
-def build_app(pretty: bool) -> typer.Typer:
+def command_files(arguments: Sequence[str] = ()) -> list[str]:
+    """The files that a call needs: that of its command, or all of them.
+
+    Making a command ready costs more than most commands do, so a call that names one loads no
+    other.
+
+    Args:
+        arguments: Of the call, without the program's name.
+
+    Returns:
+        Names of modules of this package.
+
+    Example:
+        >>> command_files(["lpe", "rest", "diffuse"])
+        ['lpe_rest']
+        >>> "nodes" in command_files(["--help"])
+        True
+    """
+    files = [
+        found.name
+        for found in pkgutil.iter_modules(cli.__path__)
+        if not found.name.startswith("_") and found.name != "main"
+    ]
+    named = [name for name in ("_".join(arguments[:2]), *arguments[:1]) if name in files]
+    return named[:1] or files
+
+
+def build_app(pretty: bool, files: Sequence[str] | None = None) -> typer.Typer:
     """Gathers the commands of this package.
 
     Args:
         pretty: Help and usage errors with boxes and colours, for a terminal.
+        files: The commands' files; all if not given.
 
     Returns:
         The program.
@@ -68,11 +103,9 @@ def build_app(pretty: bool) -> typer.Typer:
     app = typer.Typer(name="lightsieve", **settings)
     app.callback()(_top)
     groups: dict[str, typer.Typer] = {}
-    for found in pkgutil.iter_modules(cli.__path__):
-        if found.name.startswith("_") or found.name == "main":
-            continue
-        module = import_module(f"lightsieve.cli.{found.name}")
-        group_name, _, name = found.name.rpartition("_")
+    for file in command_files() if files is None else files:
+        module = import_module(f"lightsieve.cli.{file}")
+        group_name, _, name = file.rpartition("_")
         if group_name and group_name not in groups:
             groups[group_name] = typer.Typer(**settings)
             app.add_typer(groups[group_name], name=group_name, help=GROUPS[group_name])
@@ -97,9 +130,13 @@ def main() -> NoReturn:
 
     _lpe.exit_3_on_bug()
     try:
-        build_app(pretty=sys.stderr.isatty() and sys.stdout.isatty())()
+        pretty = sys.stderr.isatty() and sys.stdout.isatty()
+        build_app(pretty, command_files(sys.argv[1:]))()
     except LightsieveError as error:
         _output.report_failure(error)
+        code = EXIT_INPUT
+    except MemoryError:
+        _output.report_failure(LightsieveError([_OUT_OF_MEMORY]))
         code = EXIT_INPUT
     except BrokenPipeError:
         # The reader has gone (`lightsieve lpe list | head`): say nothing more, not even at exit.

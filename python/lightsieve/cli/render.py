@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from lightsieve.cli import _output, _progress, _scene_options, _signals
-from lightsieve.cli.check import count_text
 
 if TYPE_CHECKING:
     from lightsieve._core import CompiledScene, Outcome
@@ -21,10 +20,7 @@ EXAMPLE = (
 )
 JSON = {
     "scene": "the file",
-    "errors": "how many",
-    "warnings": "how many",
-    "lints": "how many",
-    "diagnostics": "the first 20 errors and 200 warnings and lints",
+    **_scene_options.DIAGNOSTICS_JSON,
     "files": "written; this and all below are missing if errors forbid rendering",
     "stopped": "true if Ctrl-C ended it early",
     "width": "of the rendered region [pixels]",
@@ -73,10 +69,7 @@ def _named(definitions: Sequence[str] | None) -> dict[str, str]:
 def _document(scene: Path, compiled: CompiledScene, outcome: Outcome | None) -> dict[str, Any]:
     document: dict[str, Any] = {
         "scene": str(scene),
-        "errors": compiled.n_errors,
-        "warnings": compiled.n_warnings,
-        "lints": compiled.n_lints,
-        "diagnostics": [item.to_dict() for item in compiled.diagnostics],
+        **_scene_options.diagnostics_document(compiled),
     }
     if outcome is not None:
         document |= {
@@ -107,7 +100,7 @@ def _print_summary(compiled: CompiledScene, outcome: Outcome) -> None:
     )
     if outcome.dropped_samples:
         typer.echo(f"{_output.plural(outcome.dropped_samples, 'sample')} dropped: not finite")
-    typer.echo(count_text(compiled))
+    typer.echo(_scene_options.count_text(compiled))
 
 
 def _say_stopped(outcome: Outcome, cause: str) -> None:

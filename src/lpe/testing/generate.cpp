@@ -72,6 +72,35 @@ Expr some_event(std::mt19937& random, bool may_be_brackets) {
     }
 }
 
+/// Built-ins of which few paths are taken, most, and none of light.
+Expr some_reference(std::mt19937& random) {
+    static const std::array<std::string, 3> names{"$indirect", "$coat", "$diffuse_albedo"};
+    return must_parse(names[below(random, names.size())]);
+}
+
+Expr some_expression(std::mt19937& random, std::size_t n_nodes, bool extended) {
+    if (n_nodes <= 1)
+        return extended && below(random, 12) == 0 ? some_reference(random)
+                                                  : some_event(random, true);
+    const std::size_t choice = below(random, extended ? 8 : 5);
+    if (choice == 5) return make(Complement{some_expression(random, n_nodes - 1, extended)});
+    if (choice < 2) {
+        const auto min = static_cast<std::uint32_t>(below(random, 3));
+        const auto max = static_cast<std::uint32_t>(min + below(random, 3));
+        const bool unbounded = below(random, 2) == 0;
+        return make(Repeat{some_expression(random, n_nodes - 1, extended), min,
+                           unbounded ? Repeat::kUnbounded : max});
+    }
+    std::vector<Expr> parts;
+    const std::size_t n_parts = 2 + below(random, 2);
+    for (std::size_t i = 0; i < n_parts; ++i)
+        parts.push_back(some_expression(random, (n_nodes - 1) / n_parts, extended));
+    if (choice == 2) return make(Alternation{std::move(parts)});
+    if (choice == 6) return make(Intersection{std::move(parts)});
+    if (choice == 7) return make(Difference{std::move(parts)});
+    return make(Sequence{std::move(parts)});
+}
+
 }  // namespace
 
 Expr must_parse(const std::string& text) {
@@ -101,18 +130,24 @@ std::vector<Event> must_events(const std::string& text) {
     return events;
 }
 
-std::vector<Expr> all_expressions(const std::vector<Expr>& leaves, std::size_t n_nodes) {
+std::vector<Expr> all_expressions(const std::vector<Expr>& leaves, std::size_t n_nodes,
+                                  bool extended) {
     if (n_nodes == 1) return leaves;
     std::vector<Expr> out;
-    for (const Expr& body : all_expressions(leaves, n_nodes - 1)) {
+    for (const Expr& body : all_expressions(leaves, n_nodes - 1, extended)) {
+        if (extended) out.push_back(make(Complement{body}));
         out.push_back(make(Repeat{body, 0, Repeat::kUnbounded}));
         out.push_back(make(Repeat{body, 1, Repeat::kUnbounded}));
         out.push_back(make(Repeat{body, 0, 1}));
         out.push_back(make(Repeat{body, 2, 2}));
     }
     for (std::size_t n_left = 1; n_left + 1 < n_nodes; ++n_left)
-        for (const Expr& left : all_expressions(leaves, n_left))
-            for (const Expr& right : all_expressions(leaves, n_nodes - 1 - n_left)) {
+        for (const Expr& left : all_expressions(leaves, n_left, extended))
+            for (const Expr& right : all_expressions(leaves, n_nodes - 1 - n_left, extended)) {
+                if (extended) {
+                    out.push_back(make(Intersection{{left, right}}));
+                    out.push_back(make(Difference{{left, right}}));
+                }
                 out.push_back(make(Sequence{{left, right}}));
                 out.push_back(make(Alternation{{left, right}}));
             }
@@ -139,21 +174,11 @@ std::vector<Path> all_paths(std::span<const Event> events, std::size_t n_events)
 }
 
 Expr random_expression(std::mt19937& random, std::size_t n_nodes) {
-    if (n_nodes <= 1) return some_event(random, true);
-    const std::size_t choice = below(random, 5);
-    if (choice < 2) {
-        const auto min = static_cast<std::uint32_t>(below(random, 3));
-        const auto max = static_cast<std::uint32_t>(min + below(random, 3));
-        const bool unbounded = below(random, 2) == 0;
-        return make(Repeat{random_expression(random, n_nodes - 1), min,
-                           unbounded ? Repeat::kUnbounded : max});
-    }
-    std::vector<Expr> parts;
-    const std::size_t n_parts = 2 + below(random, 2);
-    for (std::size_t i = 0; i < n_parts; ++i)
-        parts.push_back(random_expression(random, (n_nodes - 1) / n_parts));
-    if (choice == 2) return make(Alternation{std::move(parts)});
-    return make(Sequence{std::move(parts)});
+    return some_expression(random, n_nodes, false);
+}
+
+Expr random_extended_expression(std::mt19937& random, std::size_t n_nodes) {
+    return some_expression(random, n_nodes, true);
 }
 
 Expr random_light_expression(std::mt19937& random, std::size_t n_nodes) {

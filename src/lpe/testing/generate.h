@@ -23,8 +23,9 @@ namespace lightsieve::lpe::testing {
 
 /// Every tree of exactly `n_nodes` nodes over these leaves with the operators * + ? {2}, sequence
 /// and alternation.
+/// extended  also with our extensions: `&`, `-` and `!( )`
 [[nodiscard]] std::vector<Expr> all_expressions(const std::vector<Expr>& leaves,
-                                                std::size_t n_nodes);
+                                                std::size_t n_nodes, bool extended = false);
 
 /// Every light path of at most `n_events` events, the camera included, made of these events.
 [[nodiscard]] std::vector<Path> all_paths(std::span<const Event> events, std::size_t n_events);
@@ -32,6 +33,8 @@ namespace lightsieve::lpe::testing {
 /// A random tree of about `n_nodes` nodes with every form of the language, as `parse` would make
 /// it.
 [[nodiscard]] Expr random_expression(std::mt19937& random, std::size_t n_nodes);
+/// The same with our extensions; names are those of built-ins.
+[[nodiscard]] Expr random_extended_expression(std::mt19937& random, std::size_t n_nodes);
 /// A random tree behind a C, so that it is likely to take something.
 [[nodiscard]] Expr random_light_expression(std::mt19937& random, std::size_t n_nodes);
 /// A random light path of at most `n_events` events made of these events.

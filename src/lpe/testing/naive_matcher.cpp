@@ -82,6 +82,13 @@ bool single_event_matches(const Node& test, const Event& event) {
     return brackets.negated ? !is_camera_or_probe(event) && !one : one;
 }
 
+std::set<std::size_t> common(const std::set<std::size_t>& a, const std::set<std::size_t>& b) {
+    std::set<std::size_t> out;
+    for (const std::size_t position : a)
+        if (b.contains(position)) out.insert(position);
+    return out;
+}
+
 /// Every position at which a match of `node` that begins at `begin` can end.
 std::set<std::size_t> ends(const Node& node, std::span<const Event> path, std::size_t begin) {
     std::set<std::size_t> out;
@@ -107,6 +114,26 @@ std::set<std::size_t> ends(const Node& node, std::span<const Event> path, std::s
                 next.merge(ends(*repeat->body, path, at));
             now = next;
         }
+    } else if (const auto* all = std::get_if<Intersection>(&node.form)) {
+        out = ends(*all->parts[0], path, begin);
+        for (const Expr& part : all->parts)
+            out = common(out, ends(*part, path, begin));
+    } else if (const auto* difference = std::get_if<Difference>(&node.form)) {
+        out = ends(*difference->parts[0], path, begin);
+        for (std::size_t i = 1; i < difference->parts.size(); ++i)
+            for (const std::size_t end : ends(*difference->parts[i], path, begin))
+                out.erase(end);
+    } else if (const auto* complement = std::get_if<Complement>(&node.form)) {
+        // The camera, then anything but a second camera or a probe.
+        if (begin < path.size() && spell(path[begin]).kind == 'C') out.insert(begin + 1);
+        for (std::size_t end = begin + 1; !out.empty() && end < path.size(); ++end) {
+            if (is_camera_or_probe(path[end])) break;
+            out.insert(end + 1);
+        }
+        for (const std::size_t end : ends(*complement->body, path, begin))
+            out.erase(end);
+    } else if (const auto* reference = std::get_if<Reference>(&node.form)) {
+        if (reference->body) out = ends(*reference->body, path, begin);
     } else if (begin < path.size() && single_event_matches(node, path[begin])) {
         out.insert(begin + 1);
     }

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "bsdf/closure.h"
-#include "nodes/shader/shader_common.h"
+#include "nodes/shader/layering.h"
 #include "scene/describe.h"
 #include "scene/node_context.h"
 
@@ -50,6 +50,10 @@ struct MicrofacetCommon : ScatterCommon {
         if (!context.is_linked("tangent")) tangent = {};
     }
     [[nodiscard]] GgxAlpha alpha() const { return {roughness.x, roughness.y}; }
+    /// Reflection by a base of these indices under the film.
+    [[nodiscard]] FilmReflect filmed(Color n, Color k) const {
+        return FilmReflect(alpha(), thinfilm_thickness, thinfilm_ior, n, k);
+    }
 };
 
 template <class T>
@@ -62,10 +66,8 @@ void describe_microfacets(Describe<T>& d) {
     d.param("thinfilm_thickness", &T::thinfilm_thickness,
             "Thickness of an iridescent film; 0: none.")
         .unit("nm")
-        .pending();
-    d.param("thinfilm_ior", &T::thinfilm_ior,
-            "Index of refraction of the film; acts with thinfilm_thickness.")
-        .ignored();
+        .range(0, 2000);
+    d.param("thinfilm_ior", &T::thinfilm_ior, "Index of refraction of the film.").range(1, 3);
     d.param("caustics", &T::caustics, "Also seen by rays that were scattered diffusely.");
 }
 

@@ -20,8 +20,10 @@ struct Conductor : MicrofacetCommon {
     }
 
     void eval(const ShadePoint& at, ClosureSet& out) const {
-        out.add(0, ConductorReflect(alpha(), ior, extinction), Color::grey(unit(weight)),
-                frame(at, out, tangent), caustics);
+        const LobeModel model = thinfilm_thickness > 0
+                                    ? LobeModel(filmed(ior, extinction))
+                                    : LobeModel(ConductorReflect(alpha(), ior, extinction));
+        out.add(0, model, Color::grey(unit(weight)), frame(at, out, tangent), caustics);
     }
 };
 

@@ -30,10 +30,12 @@ struct Dielectric : MicrofacetCommon {
         // A body that only reflects is seen from outside on both sides; one that refracts has an inside.
         const bool inside = transmits(scatter_mode) && !at.entering;
         const float eta = inside ? 1 / ior : ior;
-        const DielectricReflect reflection(alpha(), eta);
+        const LobeModel reflection = thinfilm_thickness > 0 && !inside
+                                         ? LobeModel(filmed(Color::grey(ior), kBlack))
+                                         : LobeModel(DielectricReflect(alpha(), eta));
         if (reflects(scatter_mode)) out.add(0, reflection, factor, own, caustics);
         if (!transmits(scatter_mode)) return;
-        const Color left = kWhite - reflection.albedo(out.local_wo(own));
+        const Color left = complement(kWhite, reflection, out.local_wo(own));
         out.add(1, DielectricTransmit(alpha(), eta), factor * left, own, caustics);
     }
 };

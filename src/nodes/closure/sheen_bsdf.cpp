@@ -12,7 +12,7 @@ struct Sheen : ScatterCommon {
         Describe<Sheen> d("sheen_bsdf", NodeKind::Shader,
                           "The glow that fibres give to cloth and dust.");
         d.lobe(0, EventKind::Reflection, EventLobe::Specular, "sheen", "Reflection by fibres.");
-        d.param("color", &Sheen::color, "Tint.").range(0, 1);
+        d.param("color", &Sheen::color, "Tint of the glow.").range(0, 1);
         d.param("roughness", &Sheen::roughness, "How far the glow spreads from the edge.")
             .range(0, 1);
         describe_scatter(d);

@@ -11,7 +11,9 @@ namespace lightsieve {
 NodeType node_checkerboard();
 NodeType node_flat();
 NodeType node_lambert();
+NodeType node_layer_rgba();
 NodeType node_matte();
+NodeType node_ray_switch_rgba();
 NodeType node_utility();
 
 namespace {
@@ -170,6 +172,46 @@ TEST(Utility, WhatIsMissingIsSaid) {
     node.type().prepare(node.block(), context);
     EXPECT_EQ(context.count(Code::ParamPending), 2U);
     EXPECT_FALSE(Shaded(node).set.closures().empty());
+}
+
+TEST(RaySwitchRgba, GivesEachRayItsColour) {
+    TestNode node(node_ray_switch_rgba());
+    node.set("camera", Rgba{{1, 0, 0}, 1}).set("diffuse_transmission", Rgba{{0, 1, 0}, 0.5F});
+    ShadePoint at;
+    expect_color(value(node, at), {1, 0, 0});
+    at.ray_type = RayType::Subsurface;
+    expect_color(value(node, at), {0, 1, 0});
+    at.ray_type = RayType::SpecularReflect;
+    expect_color(value(node, at), {1, 1, 1});
+    EXPECT_TRUE(node.type().reads_ray_type);
+}
+
+TEST(LayerRgba, PutsLayersOnOneAnother) {
+    TestNode node(node_layer_rgba());
+    const auto seen = [&] { return node.type().eval_value(node.block(), {}); };
+    node.set("input1", Rgba{{0.2F, 0.4F, 0.6F}, 1});
+    expect_color(seen().rgb, {0.2F, 0.4F, 0.6F});
+    node.set("enable2", true).set("input2", Rgba{{1, 0, 0.5F}, 0.5F}).set("mix2", 0.5F);
+    struct Row {
+        std::int32_t operation;
+        Color blended;
+    };
+    // Each blend of 0.2 0.4 0.6 with 1 0 0.5, a quarter of it.
+    for (const Row& row :
+         {Row{1, {1, 0, 0.5F}}, Row{2, {1.2F, 0.4F, 1.1F}}, Row{3, {-0.8F, 0.4F, 0.1F}},
+          Row{4, {0.2F, 0, 0.3F}}, Row{5, {0.2F, 0, 1.2F}}, Row{6, {0.6F, 0.2F, 0.55F}},
+          Row{7, {0.8F, 0.4F, 0.1F}}, Row{8, {1, 0.4F, 0.8F}}, Row{9, {0.4F, 0, 0.6F}},
+          Row{12, {0.2F, 0, 0.5F}}, Row{13, {1, 0.4F, 0.6F}}}) {
+        SCOPED_TRACE(row.operation);
+        node.set_enum("operation2", row.operation);
+        expect_color(seen().rgb, lerp(Color{0.2F, 0.4F, 0.6F}, row.blended, 0.25F));
+    }
+    // Overwrite takes the layer by its mix alone.
+    node.set_enum("operation2", 0);
+    expect_color(seen().rgb, lerp(Color{0.2F, 0.4F, 0.6F}, Color{1, 0, 0.5F}, 0.5F));
+    EXPECT_NEAR(seen().a, 0.75, 1e-6);
+    node.set_enum("operation2", 1).set_enum("alpha_operation2", 1);
+    EXPECT_EQ(seen().a, 1);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bsdf/closure.h"
-#include "nodes/shader/shader_common.h"
+#include "nodes/shader/layering.h"
 #include "scene/describe.h"
 #include "scene/node_context.h"
 
@@ -84,7 +84,7 @@ class Layering {
           coat_(unit(s.coat)),
           transmission_(unit(s.transmission)),
           inside_(!at.entering && !s.thin_walled && transmission_ > 0),
-          base_(oriented(s.normal, 0, 0)) {}
+          base_(oriented(at, out, s.normal)) {}
 
     /// coat * coat_brdf, then lerp(1, coat_color * (1 - R), coat) for all below.
     void add_coat() {
@@ -92,11 +92,12 @@ class Layering {
         Color through = unit(s_.coat_color);
         // Seen from inside of a transparent body the coat only tints: its reflection is on the other side.
         if (!inside_) {
-            const Oriented frame = oriented(s_.coat_normal, s_.coat_anisotropy, s_.coat_rotation);
-            const LobeModel model =
-                reflection(GgxAlpha::from_roughness(unit(s_.coat_roughness), s_.coat_anisotropy),
-                           s_.coat_IOR);
-            through *= complement(kWhite, model, frame);
+            const OrientedFrame frame = oriented(at_, out_, s_.coat_normal, s_.tangent,
+                                                 s_.coat_anisotropy, s_.coat_rotation);
+            const LobeModel model = dielectric_reflection(
+                GgxAlpha::from_roughness(unit(s_.coat_roughness), s_.coat_anisotropy),
+                s_.coat_IOR);
+            through *= complement(kWhite, model, frame.wo);
             out_.add(kCoat, model, left_ * coat_, frame.index, s_.caustics);
         }
         left_ *= lerp(kWhite, through, coat_);
@@ -114,9 +115,9 @@ class Layering {
         if (metalness > 0) {
             const Color reflectivity = unit(positive(s_.base) * positive(s_.base_color));
             const Color edge_tint = unit(positive(s_.specular) * positive(s_.specular_color));
-            out_.add(kMetal,
-                     ConductorReflect::from_artistic(specular_alpha(roughness(0)), reflectivity,
-                                                     edge_tint),
+            const auto metal = ConductorReflect::from_artistic(specular_alpha(roughness(0)),
+                                                               reflectivity, edge_tint);
+            out_.add(kMetal, has_film() ? filmed(metal.alpha, metal.n, metal.k) : LobeModel(metal),
                      left_ * metalness, specular_frame().index, s_.caustics);
         }
         left_ *= 1 - metalness;
@@ -126,11 +127,13 @@ class Layering {
     void add_specular() {
         const Color weight = positive(s_.specular) * positive(s_.specular_color);
         if (is_black(weight) || is_black(left_)) return;
-        const LobeModel model = reflection(specular_alpha(roughness(0)), relative_ior());
-        const Oriented frame = specular_frame();
+        const GgxAlpha alpha = specular_alpha(roughness(0));
+        const LobeModel model = has_film() ? filmed(alpha, Color::grey(s_.specular_IOR), kBlack)
+                                           : dielectric_reflection(alpha, relative_ior());
+        const OrientedFrame frame = specular_frame();
         if (!inside_ || s_.internal_reflections)
             out_.add(kSpecular, model, left_ * weight, frame.index, s_.caustics);
-        left_ *= complement(weight, model, frame);
+        left_ *= complement(weight, model, frame.wo);
     }
 
     /// transmission * transmission_color * spec_btdf + (1 - transmission) * ...
@@ -138,7 +141,9 @@ class Layering {
         if (transmission_ > 0 && !is_black(left_)) {
             const bool tints_inside = s_.transmission_depth > 0 && !s_.thin_walled;
             const Color tint = tints_inside ? kWhite : positive(s_.transmission_color);
-            if (tints_inside) out_.set_interior(absorption());
+            if (tints_inside)
+                out_.set_interior(interior_absorption(s_.transmission_color, s_.transmission_depth,
+                                                      s_.transmission_scatter));
             const Color weight = left_ * (transmission_ * tint);
             const GgxAlpha alpha = specular_alpha(roughness(s_.transmission_extra_roughness));
             const LobeModel model = s_.thin_walled
@@ -157,7 +162,7 @@ class Layering {
         const LobeModel model = SheenReflect(s_.sheen_roughness);
         out_.add(kSheen, model, left_ * (sheen * positive(s_.sheen_color)), base_.index,
                  s_.caustics);
-        left_ *= complement(Color::grey(sheen), model, base_);
+        left_ *= complement(Color::grey(sheen), model, base_.wo);
     }
 
     /// (1 - subsurface) * base * base_color * diffuse_brdf + subsurface * subsurface_mix
@@ -185,28 +190,11 @@ class Layering {
     }
 
   private:
-    /// A frame of the closure set.
-    struct Oriented {
-        std::uint8_t index;
-        Vec3f wo;  ///< local
-    };
-
-    /// Frame around the parameter's normal (0 0 0: the hit's), its x axis turned for anisotropy.
-    [[nodiscard]] Oriented oriented(Vec3f linked_normal, float anisotropy, float rotation) {
-        const bool own_normal = !(linked_normal == Vec3f{});
-        if (!own_normal && !(anisotropy > 0)) return {0, out_.local_wo(0)};
-        const Vec3f n = shading_normal(at_, linked_normal);
-        Frame frame = Frame::from_z_x(n, s_.tangent == Vec3f{} ? at_.tangent : s_.tangent);
-        // A full turn for rotation = 1, from x toward -y: standard_surface's OSL reference.
-        if (const float angle = 2 * kPi * rotation; angle != 0 && std::isfinite(angle))
-            frame = Frame::from_z_x(n, frame.x * std::cos(angle) - frame.y * std::sin(angle));
-        const std::uint8_t index = out_.add_frame(frame);
-        return {index, out_.local_wo(index)};
-    }
-    [[nodiscard]] Oriented specular_frame() {
+    [[nodiscard]] OrientedFrame specular_frame() {
         if (!(s_.specular_anisotropy > 0)) return base_;
         if (!has_specular_frame_)
-            specular_ = oriented(s_.normal, s_.specular_anisotropy, s_.specular_rotation);
+            specular_ = oriented(at_, out_, s_.normal, s_.tangent, s_.specular_anisotropy,
+                                 s_.specular_rotation);
         has_specular_frame_ = true;
         return specular_;
     }
@@ -219,36 +207,18 @@ class Layering {
     [[nodiscard]] GgxAlpha specular_alpha(float r) const {
         return GgxAlpha::from_roughness(r, s_.specular_anisotropy);
     }
-    /// Absorption coefficient of the interior: transmission_color is left after transmission_depth, less what scatters
-    /// (Autodesk Standard Surface 1.0.1, section 4.3).
-    [[nodiscard]] Color absorption() const {
-        constexpr float kDarkest = 1e-6F;
-        Color out;
-        for (int c = 0; c < 3; ++c) {
-            const float color = std::clamp(s_.transmission_color[c], kDarkest, 1.0F);
-            out[c] = std::max(0.0F, -std::log(color) / s_.transmission_depth -
-                                        positive(s_.transmission_scatter[c]));
-        }
-        return out;
+    /// A film lies on the outside of bodies, below the coat.
+    [[nodiscard]] bool has_film() const {
+        return s_.thin_film_thickness > 0 && !inside_ && !s_.thin_walled;
+    }
+    [[nodiscard]] LobeModel filmed(GgxAlpha alpha, Color n, Color k) const {
+        return FilmReflect(alpha, s_.thin_film_thickness, s_.thin_film_IOR, n, k);
     }
     /// n(far side) / n(side of wo).
     [[nodiscard]] float relative_ior() const {
         return inside_ ? 1 / s_.specular_IOR : s_.specular_IOR;
     }
 
-    /// Fresnel reflection. Tables of dielectrics end at kMaxEta; mirrors are made with larger indices, and those are
-    /// metals without extinction.
-    [[nodiscard]] static LobeModel reflection(GgxAlpha alpha, float eta) {
-        if (eta > kMaxEta && std::isfinite(eta))
-            return ConductorReflect(alpha, Color::grey(eta), kBlack);
-        return DielectricReflect(alpha, eta);
-    }
-    /// 1 - weight * R, R the lobe's directional albedo.
-    [[nodiscard]] static Color complement(Color weight, const LobeModel& model,
-                                          const Oriented& frame) {
-        const Color r = std::visit([&](const auto& lobe) { return lobe.albedo(frame.wo); }, model);
-        return unit(kWhite - weight * r);
-    }
     /// Colours below the coat: raised to 1 + coat * coat_affect_color.
     [[nodiscard]] Color darkened(Color c) const {
         c = positive(c);
@@ -263,7 +233,7 @@ class Layering {
     Color left_;  ///< share of the light that the layers above let through
     float coat_, transmission_;
     bool inside_;  ///< of a transparent body
-    Oriented base_, specular_{};
+    OrientedFrame base_, specular_{};
     bool has_specular_frame_ = false;
 };
 
@@ -391,10 +361,8 @@ void describe_coat(Describe<S>& d) {
     d.param("thin_film_thickness", &S::thin_film_thickness,
             "Thickness of an iridescent film; 0: none.")
         .unit("nm")
-        .pending();
-    d.param("thin_film_IOR", &S::thin_film_IOR,
-            "Index of refraction of the film; acts with thin_film_thickness.")
-        .ignored();
+        .range(0, 2000);
+    d.param("thin_film_IOR", &S::thin_film_IOR, "Index of refraction of the film.").range(1, 3);
 }
 
 void describe_rest(Describe<S>& d) {

@@ -57,6 +57,8 @@ struct Shaded {
         Color sum = set.transparency();
         for (std::size_t i = 0; i < set.closures().size(); ++i)
             sum += set.albedo(i);
+        for (const SubsurfaceClosure& below : set.subsurfaces())
+            sum += below.albedo();
         return sum;
     }
 
@@ -249,22 +251,40 @@ TEST(StandardSurface, PrepareClearsNormalsThatAreOnlyWritten) {
     EXPECT_TRUE(context.diagnostics().items().empty());
 }
 
-TEST(StandardSurface, SubsurfaceIsShownAsDiffuseAndSaysSo) {
+TEST(StandardSurface, SubsurfaceWalksUnlessItHasNoDepth) {
     TestNode node(node_standard_surface());
-    node.set("subsurface", 1.0F)
+    node.set("subsurface", 0.75F)
         .set("subsurface_color", Color{0.9F, 0.4F, 0.2F})
-        .set("specular", 0.0F);
-    TestContext context;
-    node.type().prepare(node.block(), context);
-    EXPECT_EQ(context.count(Code::ParamPending), 1U);
+        .set("subsurface_radius", Color{2, 1, 0.5F})
+        .set("subsurface_scale", 0.1F)
+        .set("specular", 0.0F)
+        .set("base", 0.0F);
     const Shaded s(node, hit(0.5));
-    ASSERT_EQ(s.set.closures().size(), 1U);
-    expect_color(s.set.albedo(s.index.at(kSubsurface)), {0.9F, 0.4F, 0.2F});
-    EXPECT_TRUE(std::holds_alternative<DiffuseReflect>(s.closure(kSubsurface).model));
+    EXPECT_TRUE(s.set.closures().empty());
+    ASSERT_EQ(s.set.subsurfaces().size(), 1U);
+    const SubsurfaceClosure& below = s.set.subsurfaces()[0];
+    EXPECT_EQ(below.record, &s.records[kSubsurface]);
+    expect_color(below.weight, Color::grey(0.75F));
+    expect_color(below.albedo(), {0.675F, 0.3F, 0.15F});
+    expect_color(below.medium.mean_free_path, {0.2F, 0.1F, 0.05F});
+    node.set("subsurface_scale", 0.0F);
+    const Shaded flat(node, hit(0.5));
+    EXPECT_TRUE(flat.set.subsurfaces().empty());
+    EXPECT_TRUE(std::holds_alternative<DiffuseReflect>(flat.closure(kSubsurface).model));
+}
+
+TEST(StandardSurface, DepthMovesTheTintIntoTheInterior) {
+    TestNode node = smooth_surface();
+    node.set("transmission", 1.0F).set("transmission_color", Color{0.5F, 0.25F, 1});
+    const Shaded tinted(node, hit(1));
+    EXPECT_TRUE(is_black(tinted.set.interior()));
+    EXPECT_NEAR(tinted.weight(kTransmission).g / tinted.weight(kTransmission).b, 0.25F, 1e-5);
+    node.set("transmission_depth", 2.0F);
+    const Shaded deep(node, hit(1));
+    EXPECT_NEAR(deep.weight(kTransmission).g / deep.weight(kTransmission).b, 1, 1e-5);
+    expect_color(deep.set.interior(), {std::log(2.0F) / 2, std::log(4.0F) / 2, 0});
     node.set("thin_walled", true);
-    TestContext silent;
-    node.type().prepare(node.block(), silent);
-    EXPECT_EQ(silent.count(Code::ParamPending), 0U);
+    EXPECT_TRUE(is_black(Shaded(node, hit(1)).set.interior()));
 }
 
 TEST(StandardSurface, CausticsFlagGoesToSpecularLobesOnly) {
@@ -279,8 +299,7 @@ TEST(StandardSurface, CausticsFlagGoesToSpecularLobesOnly) {
         const Shaded s(node, hit(0.7));
         for (const int lobe : {kSheen, kSpecular, kMetal, kCoat, kTransmission})
             EXPECT_EQ(s.closure(lobe).caustics, caustics) << lobe;
-        for (const int lobe : {kDiffuse, kSubsurface})
-            EXPECT_TRUE(s.closure(lobe).caustics) << lobe;
+        EXPECT_TRUE(s.closure(kDiffuse).caustics);
     }
 }
 

@@ -1,0 +1,63 @@
+// What layered materials (standard_surface, openpbr_surface) share: frames, what a layer lets through, interiors.
+#pragma once
+
+#include <cmath>
+
+#include "bsdf/closure.h"
+#include "nodes/shader/shader_common.h"
+
+namespace lightsieve {
+
+/// A frame of a closure set.
+struct OrientedFrame {
+    std::uint8_t index = 0;
+    Vec3f wo;  ///< the viewer's direction in it, at or above the horizon
+};
+
+/// The frame around a normal parameter (0 0 0: the hit's own), its x axis turned for anisotropy.
+///
+/// tangent   parameter; 0 0 0: the hit's own
+/// rotation  in turns, from x toward -y (Autodesk Standard Surface, OSL reference)
+[[nodiscard]] inline OrientedFrame oriented(const ShadePoint& at, ClosureSet& out,
+                                            Vec3f linked_normal, Vec3f tangent = {},
+                                            float anisotropy = 0, float rotation = 0) {
+    if (linked_normal == Vec3f{} && !(anisotropy > 0)) return {0, out.local_wo(0)};
+    const Vec3f n = shading_normal(at, linked_normal);
+    Frame frame = Frame::from_z_x(n, tangent == Vec3f{} ? at.tangent : tangent);
+    if (const float angle = 2 * kPi * rotation; angle != 0 && std::isfinite(angle))
+        frame = Frame::from_z_x(n, frame.x * std::cos(angle) - frame.y * std::sin(angle));
+    const std::uint8_t index = out.add_frame(frame);
+    return {index, out.local_wo(index)};
+}
+
+/// Fresnel reflection. Tables of dielectrics end at kMaxEta; mirrors are made with larger indices, and those are metals
+/// without extinction.
+[[nodiscard]] inline LobeModel dielectric_reflection(GgxAlpha alpha, float eta) {
+    if (eta > kMaxEta && std::isfinite(eta))
+        return ConductorReflect(alpha, Color::grey(eta), kBlack);
+    return DielectricReflect(alpha, eta);
+}
+
+/// Directional albedo of a lobe for a local direction.
+[[nodiscard]] inline Color albedo_of(const LobeModel& model, Vec3f wo) {
+    return std::visit([&](const auto& lobe) { return lobe.albedo(wo); }, model);
+}
+
+/// 1 - weight * E, what a layer leaves to those below.
+[[nodiscard]] inline Color complement(Color weight, const LobeModel& model, Vec3f wo) {
+    return unit(kWhite - weight * albedo_of(model, wo));
+}
+
+/// Absorption coefficient of an interior [1/scene unit]: `color` is left after `depth`, less what scatters.
+/// Source: Autodesk Standard Surface 1.0.1, section 4.3.
+[[nodiscard]] inline Color interior_absorption(Color color, float depth, Color scatter) {
+    constexpr float kDarkest = 1e-6F;
+    Color out;
+    for (int c = 0; c < 3; ++c) {
+        const float left = std::clamp(color[c], kDarkest, 1.0F);
+        out[c] = std::max(0.0F, -std::log(left) / depth - positive(scatter[c]));
+    }
+    return out;
+}
+
+}  // namespace lightsieve

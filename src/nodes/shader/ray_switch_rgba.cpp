@@ -1,0 +1,48 @@
+// ray_switch_rgba: another colour for each type of ray.
+#include "scene/describe.h"
+#include "scene/shade_point.h"
+
+namespace lightsieve {
+namespace {
+
+struct RaySwitchRgba {
+    Rgba camera{{1, 1, 1}, 1}, shadow{{1, 1, 1}, 1}, diffuse_reflection{{1, 1, 1}, 1},
+        diffuse_transmission{{1, 1, 1}, 1}, specular_reflection{{1, 1, 1}, 1},
+        specular_transmission{{1, 1, 1}, 1}, volume{{1, 1, 1}, 1};
+
+    static NodeType describe() {
+        Describe<RaySwitchRgba> d("ray_switch_rgba", NodeKind::Shader,
+                                  "Another colour for each type of ray.");
+        d.param("camera", &RaySwitchRgba::camera, "For rays from the camera.");
+        d.param("shadow", &RaySwitchRgba::shadow, "For shadow rays.");
+        d.param("diffuse_reflection", &RaySwitchRgba::diffuse_reflection,
+                "For diffusely reflected rays.");
+        d.param("diffuse_transmission", &RaySwitchRgba::diffuse_transmission,
+                "For diffusely transmitted rays and those from below a surface.");
+        d.param("specular_reflection", &RaySwitchRgba::specular_reflection, "For reflections.");
+        d.param("specular_transmission", &RaySwitchRgba::specular_transmission,
+                "For rays through clear bodies.");
+        d.param("volume", &RaySwitchRgba::volume, "For rays that volumes scatter.");
+        d.reads_ray_type();
+        return d.done();
+    }
+    [[nodiscard]] Rgba eval(const ShadePoint& at) const {
+        switch (at.ray_type) {
+            case RayType::Camera: return camera;
+            case RayType::Shadow: return shadow;
+            case RayType::DiffuseReflect: return diffuse_reflection;
+            case RayType::DiffuseTransmit:
+            case RayType::Subsurface: return diffuse_transmission;
+            case RayType::SpecularReflect: return specular_reflection;
+            case RayType::SpecularTransmit: return specular_transmission;
+            case RayType::Volume: break;
+        }
+        return volume;
+    }
+};
+
+}  // namespace
+
+NodeType node_ray_switch_rgba() { return RaySwitchRgba::describe(); }
+
+}  // namespace lightsieve
