@@ -28,7 +28,7 @@ sys.path.insert(0, str(HERE))
 from measure import Job  # noqa: E402
 
 import lightsieve  # noqa: E402
-from scenes import ceiling_panels, cornell_box, terrain  # noqa: E402
+from scenes import ceiling_panels, cornell_box, hair_ball, terrain  # noqa: E402
 
 N_GROUPS = 8
 
@@ -41,17 +41,19 @@ class Size:
         resolution: width and height [pixels].
         spp: samples a pixel.
         n_triangles: of the terrain.
+        n_strands: of hair.
         rounds: renders of each variant.
     """
 
     resolution: int
     spp: int
     n_triangles: int
+    n_strands: int
     rounds: int
 
 
-FULL = Size(512, 16, 2_000_000, 3)
-QUICK = Size(128, 9, 100_000, 2)
+FULL = Size(512, 16, 2_000_000, 100_000, 3)
+QUICK = Size(128, 9, 100_000, 10_000, 2)
 
 
 @dataclass(frozen=True)
@@ -81,10 +83,15 @@ def _terrain(path: Path, size: Size) -> None:
     terrain.write(path, size.n_triangles, size.resolution)
 
 
+def _hair(path: Path, size: Size) -> None:
+    hair_ball.write(path, size.n_strands, size.resolution)
+
+
 SCENES = (
     Scene("Cornell box: mirror, glass, rough metal", _cornell(0)),
     Scene("terrain under a dome", _terrain),
     Scene("64 ceiling panels", _panels),
+    Scene("ball of hair", _hair),
 )
 # The same lamp cut into eight groups: the same picture as with one.
 AOV_SCENES = (
@@ -161,7 +168,8 @@ def print_tables(document: dict[str, Any]) -> None:
     size = f"{document['resolution']} x {document['resolution']}, {document['spp']} samples"
     print(
         f"lightsieve {document['version']}, {document['threads']} threads, {size} a pixel, "
-        f"terrain of {document['n_triangles']:,} triangles, least of {document['rounds']} rounds\n"
+        f"terrain of {document['n_triangles']:,} triangles, {document['n_strands']:,} strands, "
+        f"least of {document['rounds']} rounds\n"
     )
     print(
         f"{'':42}{'time':>9}{'samples/s':>12}{'rays/s':>13}"

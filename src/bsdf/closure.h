@@ -28,6 +28,7 @@ struct LobeRecord {
     bool subsurface = false;  ///< TD that walks below the surface: counts as a subsurface ray
     bool exit_to_background =
         false;  ///< rays past their depth limit see the background instead of black
+    std::uint8_t extra_depth = 0;  ///< bounces beyond GI_specular_depth and GI_transmission_depth
 };
 
 /// One weighted lobe.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <random>
 #include <string>
@@ -156,6 +157,19 @@ inline GgxAlpha random_stretched_alpha(Random& random) {
                      {},
                      3e-2F});
     cases.push_back({"sheen", [](Random& r) { return SheenReflect(r.between(0.1F, 1)); }, true});
+    static constexpr std::array kPaths{HairPath::R, HairPath::TT, HairPath::TRT, HairPath::Rest};
+    for (const HairPath path : kPaths)
+        cases.push_back({"hair, path " + std::to_string(static_cast<int>(path)),
+                         [path](Random& r) {
+                             const HairWidth width = HairWidth::from_roughness(
+                                 r.between(0.25F, 1), r.between(0.25F, 1));
+                             const Color absorption = r.color();
+                             return HairLobe(path, width.of(path), r.between(1.1F, 2), absorption,
+                                             r.between(-0.2F, 0.2F), r.between(-1, 1));
+                         },
+                         false,
+                         {},
+                         1e-4F});
     return cases;
 }
 

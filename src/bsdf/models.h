@@ -11,6 +11,7 @@
 #include "bsdf/conductor.h"
 #include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
+#include "bsdf/hair.h"
 #include "bsdf/schlick.h"
 #include "bsdf/sheen.h"
 #include "bsdf/thin_film.h"
@@ -19,9 +20,14 @@
 namespace lightsieve {
 
 /// One lobe; the first alternative is the cheapest to default-construct.
-using LobeModel =
-    std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit,
-                 ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect, FilmReflect>;
+using LobeModel = std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect,
+                               DielectricTransmit, ThinTransmit, ConductorReflect, SchlickReflect,
+                               SheenReflect, FilmReflect, HairLobe>;
+
+/// Lobes of fibres have no sides: light from behind the shading normal counts as much.
+[[nodiscard]] inline bool has_no_sides(const LobeModel& model) noexcept {
+    return std::holds_alternative<HairLobe>(model);
+}
 
 /// std::visit, with a short way for the lobe that most surfaces have.
 template <class Visitor>

@@ -114,14 +114,75 @@ class GeometryMaker {
         return g;
     }
 
+    RTCGeometry operator()(const CurveList& curves) const {
+        RTCGeometry g = rtcNewGeometry(device_, type_of(curves));
+        const auto n_keys = static_cast<unsigned>(std::min(kMaxKeys, curves.points.size()));
+        rtcSetGeometryTimeStepCount(g, n_keys);
+        const Mat4f& to_world = placement_[0];
+        const float scale = even_scale(to_world);
+        for (unsigned k = 0; k < n_keys; ++k) {
+            store<float>(g, RTC_BUFFER_TYPE_VERTEX, k, RTC_FORMAT_FLOAT4, 4,
+                         curves.points[k].size(), [&](std::size_t i) {
+                             const Vec3f p = to_world.point(curves.points[k][i]);
+                             return std::array{p.x, p.y, p.z, curves.radii[k][i] * scale};
+                         });
+            if (curves.mode == CurveList::Mode::Oriented)
+                store<float>(g, RTC_BUFFER_TYPE_NORMAL, k, RTC_FORMAT_FLOAT3, 3,
+                             curves.normals[0].size(), [&](std::size_t i) {
+                                 const Vec3f n = to_world.vector(curves.normals[0][i]);
+                                 return std::array{n.x, n.y, n.z};
+                             });
+        }
+        store<std::uint32_t>(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, 1,
+                             curves.segments.size(),
+                             [&](std::size_t i) { return std::array{curves.segments[i].first}; });
+        if (curves.linear && curves.mode == CurveList::Mode::Thick)
+            store<std::uint8_t>(g, RTC_BUFFER_TYPE_FLAGS, 0, RTC_FORMAT_UCHAR, 1,
+                                curves.segments.size(),
+                                [&](std::size_t i) { return std::array{neighbours(curves, i)}; });
+        return g;
+    }
+
   private:
+    static RTCGeometryType type_of(const CurveList& curves) {
+        if (curves.linear)
+            return curves.mode == CurveList::Mode::Thick ? RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE
+                                                         : RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE;
+        switch (curves.mode) {
+            case CurveList::Mode::Thick: return RTC_GEOMETRY_TYPE_ROUND_BEZIER_CURVE;
+            case CurveList::Mode::Oriented: return RTC_GEOMETRY_TYPE_NORMAL_ORIENTED_BEZIER_CURVE;
+            case CurveList::Mode::Ribbon: break;
+        }
+        return RTC_GEOMETRY_TYPE_FLAT_BEZIER_CURVE;
+    }
+    /// Straight round segments are joined where their curve goes on.
+    static std::uint8_t neighbours(const CurveList& curves, std::size_t i) {
+        const auto& all = curves.segments;
+        const bool left = i > 0 && all[i - 1].curve == all[i].curve,
+                   right = i + 1 < all.size() && all[i + 1].curve == all[i].curve;
+        return static_cast<std::uint8_t>((left ? RTC_CURVE_FLAG_NEIGHBOR_LEFT : 0) |
+                                         (right ? RTC_CURVE_FLAG_NEIGHBOR_RIGHT : 0));
+    }
+    /// Fills a buffer of `n` items of `width` values each.
+    template <class T, class Item>
+    void store(RTCGeometry g, RTCBufferType buffer, unsigned slot, RTCFormat format,
+               std::size_t width, std::size_t n, const Item& item) const {
+        auto* out = static_cast<T*>(
+            rtcSetNewGeometryBuffer(g, buffer, slot, format, width * sizeof(T), n));
+        if (out == nullptr) fail(device_, "storing curves");
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto value = item(i);
+            std::memcpy(out + width * i, value.data(), sizeof(value));
+        }
+    }
+
     RTCDevice device_;
     std::span<const Mat4f> placement_;
 };
 
-/// Spheres that a transform moves or squashes stay in object space.
+/// Spheres and curves that a transform moves or squashes stay in object space.
 bool must_instance(const AccelObject& object) {
-    return std::holds_alternative<SphereList>(object.geometry->data) &&
+    return !std::holds_alternative<TriangleMesh>(object.geometry->data) &&
            (object.world_from_object.size() > 1 || even_scale(object.world_from_object[0]) == 0);
 }
 
@@ -148,6 +209,10 @@ Box3f bounds_of(const AccelObject& object) {
         for (const std::vector<Vec3f>& key : spheres->centers)
             for (std::size_t i = 0; i < key.size(); ++i)
                 grow(key[i], spheres->radii[i]);
+    if (const auto* curves = std::get_if<CurveList>(&object.geometry->data))
+        for (std::size_t k = 0; k < curves->points.size(); ++k)
+            for (std::size_t i = 0; i < curves->points[k].size(); ++i)
+                grow(curves->points[k][i], curves->radii[k][i]);
     return out;
 }
 

@@ -38,6 +38,14 @@ bool switch_of(const ShaderProgram& shader, const char* name) {
            *reinterpret_cast<const bool*>(shader.block() + info->offset);
 }
 
+/// extra_depth of a shader that has it.
+std::uint8_t extra_depth_of(const ShaderProgram& shader) {
+    const ParamInfo* info = shader.type().find("extra_depth");
+    if (info == nullptr || info->type != ParamType::Int) return 0;
+    const auto depth = *reinterpret_cast<const std::int32_t*>(shader.block() + info->offset);
+    return static_cast<std::uint8_t>(std::clamp(depth, 0, 100));
+}
+
 }  // namespace
 
 std::uint32_t Compiler::event_index(const Event& event) {
@@ -82,6 +90,13 @@ void Compiler::fill_records() {
                           switch_of(*shader, "geometry_thin_walled");
         for (std::size_t i = 0; i < shader->records.size(); ++i) {
             shader->records[i].exit_to_background = exits;
+            if (shader->records[i].lobe == EventLobe::Specular)
+                shader->records[i].extra_depth = extra_depth_of(*shader);
+            // Through a fibre goes a specular ray: it is in no body, and its depth and what lights give it are those of
+            // highlights (extra_depth is one number for all). The event stays a transmission.
+            if (const LobeInfo& lobe = shader->type().lobes[i];
+                lobe.label == "hair" && lobe.kind == EventKind::Transmission)
+                shader->records[i].kind = EventKind::Reflection;
             shader->records[i].subsurface = shader->type().lobes[i].below_surface && !thin;
         }
         if (shader->type().eval_closure == nullptr)

@@ -1,6 +1,7 @@
 // Shapes and instances to placed geometry. See compiler.h.
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "render/compiler.h"
 
@@ -75,6 +76,8 @@ std::unique_ptr<ShapeGeometry> Compiler::geometry_of(const NodeInstance& node) {
         [](const auto& g) {
             if constexpr (std::is_same_v<std::decay_t<decltype(g)>, TriangleMesh>)
                 return g.indices.empty() || g.positions.empty();
+            else if constexpr (std::is_same_v<std::decay_t<decltype(g)>, CurveList>)
+                return g.segments.empty();
             else
                 return g.radii.empty() || g.centers.empty();
         },
@@ -100,6 +103,17 @@ void Compiler::resample_motion(ShapeGeometry& geometry, MotionRange range) const
         resample(mesh->normals);
     } else if (auto* spheres = std::get_if<SphereList>(&geometry.data)) {
         resample(spheres->centers);
+    } else if (auto* curves = std::get_if<CurveList>(&geometry.data)) {
+        resample(curves->points);
+        if (curves->radii.size() > 1)
+            curves->radii = keys_over_shutter<std::vector<float>>(
+                curves->radii, range, shutter,
+                [](const std::vector<float>& a, const std::vector<float>& b, float t) {
+                    std::vector<float> out(a.size());
+                    for (std::size_t i = 0; i < a.size(); ++i)
+                        out[i] = std::lerp(a[i], b[i], t);
+                    return out;
+                });
     }
 }
 

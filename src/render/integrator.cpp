@@ -92,7 +92,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         surface.at.ray_type = ray_type;
         const bool from_camera = ray_type == RayType::Camera;
         if (!surface.at.entering && (object.sidedness & ray_bit(ray_type)) == 0) {
-            ray.origin = offset_ray_origin(surface.at.position, -surface.outward);
+            ray.origin = start_of_ray(surface, ray.direction);
             ray.t_min = 0;
             ray.t_max -= hit.t;
             continue;
@@ -107,7 +107,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         if (from_camera) note_first_hit(surface, camera_from_world);
         if (!lights_only_) {
             add_emission();
-            gather_channels();
+            gather_channels(surface);
             if (scene_.plan.wants_probes && tracker_.live_probe()) add_probes();
         } else {
             n_channels_ = 0;
@@ -389,9 +389,10 @@ void Integrator<Tracker>::add_emission() {
 
 /// Lobes that make one event become one channel.
 template <class Tracker>
-void Integrator<Tracker>::gather_channels() {
+void Integrator<Tracker>::gather_channels(const Surface& surface) {
     n_channels_ = 0;
-    transmissive_ = false;
+    // The lobes of a fibre go round it, whatever side the ray sees.
+    transmissive_ = surface.at.on_curve;
     all_delta_ = true;
     const auto put = [&](std::size_t scatterer, const Channel& channel) {
         std::size_t c = 0;
@@ -403,7 +404,8 @@ void Integrator<Tracker>::gather_channels() {
     const std::span<const Closure> closures = closures_.closures();
     for (std::size_t i = 0; i < closures.size(); ++i) {
         all_delta_ = all_delta_ && closures_.delta(i);
-        transmissive_ |= closures[i].record->kind == EventKind::Transmission;
+        transmissive_ |=
+            closures[i].record->kind == EventKind::Transmission || has_no_sides(closures[i].model);
         put(i, {closures[i].record, closures[i].caustics});
     }
     for (std::size_t i = closures.size(); i < n_scatterers(); ++i)
@@ -443,7 +445,7 @@ float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi,
     for (std::size_t i = 0; i < closures.size(); ++i) {
         const LobeEval eval = closures_.eval(i, wi);
         pdf += probability_[i] * eval.pdf;
-        if (sides_agree) by_channel[channel_of_[i]] += eval.f;
+        if (sides_agree || has_no_sides(closures[i].model)) by_channel[channel_of_[i]] += eval.f;
     }
     return pdf;
 }
@@ -516,9 +518,8 @@ auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index
     const SceneObject& object = *surface.object;
     if (!light.common.cast_shadows || !object.receive_shadows) return {kWhite, kWhite};
     if (!object.shadow_lights.empty() && !object.shadow_lights[index]) return {kWhite, kWhite};
-    const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
-    Ray ray{offset_ray_origin(surface.at.position, side), sample.wi, 0,
-            sample.distance * (1 - kShadowEpsilon), surface.at.time};
+    Ray ray{start_of_ray(surface, sample.wi), sample.wi, 0, sample.distance * (1 - kShadowEpsilon),
+            surface.at.time};
     Visibility out = visibility_along(ray, object.self_shadows ? nullptr : &object);
     if (light.common.shadow_density == 1 && is_black(light.common.shadow_color)) return out;
     for (Color* through : {&out.straight, &out.tinted}) {
@@ -561,7 +562,7 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -
             if (is_black(out.tinted)) return dark;
             ++passed;
         }
-        const Vec3f origin = offset_ray_origin(surface.at.position, -surface.outward);
+        const Vec3f origin = start_of_ray(surface, ray.direction);
         ray.t_max -= dot(origin - ray.origin, ray.direction);
         if (!(ray.t_max > 0)) return out;
         ray.origin = origin;

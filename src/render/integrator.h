@@ -84,7 +84,7 @@ class Integrator {
     void absorb(const Surface& surface);
     void note_first_hit(const Surface& surface, const Mat4f& camera_from_world);
     void add_emission();
-    void gather_channels();
+    void gather_channels(const Surface& surface);
     void add_probes();
     void choose_probabilities();
     void add_light_samples(const Surface& surface);

@@ -59,7 +59,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
         tracker_.scale(factor);
         passed_ *= factor;
         ++n_transparent_;
-        const Vec3f origin = offset_ray_origin(surface.at.position, -surface.outward);
+        const Vec3f origin = start_of_ray(surface, ray.direction);
         ray.t_max -= std::max(0.0F, dot(origin - ray.origin, ray.direction));
         ray.origin = origin;
         ray.t_min = 0;
@@ -102,13 +102,14 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
         factors[channel_of_[drawn]] = all;
     }
     if (!advance(factors, drawn)) return false;
-    if (!is_black(closures_.interior()) && dot(sample.wi, surface.outward) < 0) {
+    // Curves have no inside: rays to their far side are past them.
+    if (!is_black(closures_.interior()) && !surface.at.on_curve &&
+        dot(sample.wi, surface.outward) < 0) {
         if (surface.at.entering)
             interiors_.enter(surface.shader, closures_.interior());
         else
             interiors_.leave(surface.shader);
     }
-    const Vec3f side = dot(sample.wi, surface.outward) > 0 ? surface.outward : -surface.outward;
     last_.position = surface.at.position;
     last_.pick_normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
     last_.lights = surface.object->lights;
@@ -117,7 +118,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     last_.samples_only = surface.object->tampers_with_shadows();
     last_.next_segment = segment_ + 1;
     footprint_.width += footprint_.spread * surface.t;
-    ray = {offset_ray_origin(surface.at.position, side), sample.wi, 0, kInfinity, surface.at.time};
+    ray = {start_of_ray(surface, sample.wi), sample.wi, 0, kInfinity, surface.at.time};
     return true;
 }
 

@@ -18,6 +18,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bsdf/closure.h"
@@ -69,7 +70,7 @@ struct Channel {
         const LobeRecord& b = *other.record;
         return a.event == b.event && a.kind == b.kind && a.lobe == b.lobe &&
                a.subsurface == b.subsurface && a.exit_to_background == b.exit_to_background &&
-               caustics == other.caustics;
+               a.extra_depth == b.extra_depth && caustics == other.caustics;
     }
 };
 
@@ -83,16 +84,19 @@ class DepthRules {
         : limits_(limits), type_matters_(type_matters) {}
 
     [[nodiscard]] GroupKey next(GroupKey key, const LobeRecord& through) const {
-        // Which counter an event uses: RD and TD diffuse, RS specular, TS transmission, V volume.
+        // Which counter an event uses: RD and TD diffuse, RS specular, TS transmission, V volume. The others are within
+        // their limits, or within what a shader with extra_depth added to them.
         const RayType type = ray_type_of(through.kind, through.lobe, through.subsurface);
-        std::uint8_t& counter = type == RayType::Volume             ? key.volume
-                                : type == RayType::SpecularTransmit ? key.transmission
-                                : type == RayType::SpecularReflect  ? key.specular
-                                                                    : key.diffuse;
-        ++counter;
-        key.lights_only = key.diffuse > limits_.diffuse || key.specular > limits_.specular ||
-                          key.transmission > limits_.transmission || key.volume > limits_.volume ||
-                          key.total() > limits_.total;
+        const auto [counter, limit] = [&]() -> std::pair<std::uint8_t*, int> {
+            switch (type) {
+                case RayType::Volume: return {&key.volume, limits_.volume};
+                case RayType::SpecularTransmit: return {&key.transmission, limits_.transmission};
+                case RayType::SpecularReflect: return {&key.specular, limits_.specular};
+                default: return {&key.diffuse, limits_.diffuse};
+            }
+        }();
+        ++*counter;
+        key.lights_only = *counter > limit + through.extra_depth || key.total() > limits_.total;
         key.exits = key.lights_only && through.exit_to_background;
         key.ray_type =
             type_matters_[static_cast<std::size_t>(type)] ? type : RayType::SpecularReflect;

@@ -170,6 +170,21 @@ TEST(DepthRules, ForgetOrderSoThatKeysMerge) {
     EXPECT_FALSE(follow({0, 0}) == follow({0, 0, 0}));
 }
 
+TEST(DepthRules, ExtraDepthBelongsToTheShaderThatHasIt) {
+    const DepthRules rules({1, 1, 1, 1, 6}, kAllMatter);
+    LobeRecord hair = kRecords[1];
+    hair.extra_depth = 3;
+    GroupKey key;
+    for (int i = 0; i < 4; ++i) {
+        key = rules.next(key, hair);
+        EXPECT_FALSE(key.lights_only) << i;
+    }
+    // Another shader has the plain limit, but lobes of other kinds go on.
+    EXPECT_TRUE(rules.next(key, kRecords[1]).lights_only);
+    EXPECT_FALSE(rules.next(key, kRecords[0]).lights_only);
+    EXPECT_TRUE(rules.next(key, hair).lights_only);
+}
+
 TEST(DepthRules, TypesThatNothingTellsApartAreOne) {
     std::array<bool, 8> matters{};
     matters[static_cast<std::size_t>(RayType::DiffuseReflect)] = true;

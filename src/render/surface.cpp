@@ -58,11 +58,16 @@ struct LocalPoint {
     Vec3f geometric_normal;  ///< not normalised
     /// World space, as modelled (not turned to the viewer), not normalised; zero: the geometric one.
     Vec3f shading_normal;
-    Vec3f dp_du;           ///< zero if there is no uv
+    Vec3f dp_du;  ///< zero if there is no uv
     Vec2f uv;
     float uv_per_unit = 0;  ///< uv length per object-space length
     std::uint32_t face = 0;
     std::size_t shader = 0;
+    // Curves only; see ShadePoint.
+    bool on_curve = false, round = false;
+    Vec2f curve_uv;
+    float curve_offset = 0;
+    Vec3f center;  ///< of the cross-section
 };
 
 /// From where a hit is looked at.
@@ -140,6 +145,98 @@ LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const View& vie
     return out;
 }
 
+/// A curve at a parameter: centre, derivative and radius.
+struct CurvePoint {
+    Vec3f center, derivative;
+    float radius = 0, radius_derivative = 0;
+};
+
+CurvePoint curve_at(const CurveList& curves, std::size_t first, float u, float time) {
+    const AtTime points(curves.points, time);
+    const KeyBlend k = blend_at(curves.radii.size(), time);
+    const auto radius = [&](std::size_t i) {
+        return std::lerp(curves.radii[k.first][i], curves.radii[k.second][i], k.f);
+    };
+    if (curves.linear) {
+        const Vec3f a = points[first], b = points[first + 1];
+        const float ra = radius(first), rb = radius(first + 1);
+        return {a * (1 - u) + b * u, b - a, std::lerp(ra, rb, u), rb - ra};
+    }
+    const float w = 1 - u;
+    const std::array<float, 4> value{w * w * w, 3 * w * w * u, 3 * w * u * u, u * u * u},
+        slope{-3 * w * w, 3 * w * (w - 2 * u), 3 * u * (2 * w - u), 3 * u * u};
+    CurvePoint out;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3f p = points[first + i];
+        const float r = radius(first + i);
+        out.center += p * value[i];
+        out.derivative += p * slope[i];
+        out.radius += r * value[i];
+        out.radius_derivative += r * slope[i];
+    }
+    // Control points that coincide (ends that are written twice) leave no direction: the chord's.
+    if (!(length_squared(out.derivative) > 0)) out.derivative = points[first + 3] - points[first];
+    return out;
+}
+
+LocalPoint resolve(const CurveList& curves, const RayHit& hit, const View& view) {
+    const CurveList::Segment& segment = curves.segments[hit.primitive];
+    const float u = std::clamp(hit.barycentric.x, 0.0F, 1.0F);
+    const CurvePoint at = curve_at(curves, segment.first, u, view.time);
+    const Vec3f along = normalize(at.derivative, {1, 0, 0});
+    const Mat4f& to_object = view.place.object_from_world;
+
+    // The cross-section as the viewer sees it: z toward the viewer, y across.
+    const Vec3f seen = to_object.vector(view.wo);
+    const Vec3f z = normalize(seen - along * dot(seen, along), Frame::from_z(along).x);
+    const Vec3f y = cross(z, along);
+    const Vec3f from_center = to_object.point(view.along) - at.center;
+
+    LocalPoint out;
+    const float radius = std::max(at.radius, 1e-20F);
+    const auto across = [&](Vec3f axis) {
+        return std::clamp(dot(from_center, axis) / radius, -1.0F, 1.0F);
+    };
+    out.curve_offset = across(y);
+    switch (curves.mode) {
+        case CurveList::Mode::Ribbon:
+            out.position = at.center + y * (out.curve_offset * radius);
+            out.geometric_normal = z;
+            break;
+        case CurveList::Mode::Thick: {
+            // The side of the round fibre, which leans where the radius changes.
+            const Vec3f side = normalize(from_center - along * dot(from_center, along), z);
+            out.curve_offset = std::clamp(dot(side, y), -1.0F, 1.0F);
+            out.position = at.center + side * radius;
+            const float speed = length(at.derivative);
+            out.geometric_normal = side * speed - along * at.radius_derivative;
+            out.round = true;
+            break;
+        }
+        case CurveList::Mode::Oriented: {
+            const AtTime normals(curves.normals, view.time);
+            const std::size_t first = segment.first, last = first + curves.n_controls() - 1;
+            const Vec3f n = normals[first] * (1 - u) + normals[last] * u;
+            out.geometric_normal = normalize(n - along * dot(n, along), z);
+            out.position = to_object.point(view.along);
+            out.curve_offset = across(cross(out.geometric_normal, along));
+            if (dot(out.geometric_normal, z) < 0) out.curve_offset = -out.curve_offset;
+            break;
+        }
+    }
+    out.on_curve = true;
+    out.center = at.center;
+    out.dp_du = along;
+    out.curve_uv = {0.5F + 0.5F * out.curve_offset, std::lerp(segment.v0, segment.v1, u)};
+    out.uv = curves.uvs.empty() ? out.curve_uv : curves.uvs[segment.curve];
+    if (curves.uvs.empty()) {
+        const float speed = length(at.derivative);
+        out.uv_per_unit = speed > 0 ? (segment.v1 - segment.v0) / speed : 0;
+    }
+    out.face = segment.curve;
+    return out;
+}
+
 Surface surface_at(const Placement& place, const SceneObject& object, const Ray& ray,
                    const RayHit& hit, const Footprint& footprint) {
     const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time};
@@ -176,6 +273,14 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
                       (cosine * std::max(scale, 1e-20F));
     }
     at.face = local.face;
+    if (local.on_curve) {
+        at.on_curve = true;
+        at.curve_uv = local.curve_uv;
+        at.curve_offset = local.curve_offset;
+        at.tangent = normalize(tangent, out.frame.x);
+        out.round_fibre = local.round;
+        out.fibre_center = place.world_from_object.point(local.center);
+    }
     at.shape_id = object.id;
     at.time = ray.time;
     at.shape = &object;
@@ -194,6 +299,18 @@ LightHit light_hit_at(const Placement& place, const SceneObject& object, const R
 }
 
 }  // namespace
+
+Vec3f start_of_ray(const Surface& surface, Vec3f wi) {
+    const bool outside = dot(wi, surface.outward) > 0;
+    if (!surface.round_fibre || outside)
+        return offset_ray_origin(surface.at.position,
+                                 outside ? surface.outward : -surface.outward);
+    // Across the fibre to where it comes out, in the plane of the cross-section.
+    const Vec3f axis = surface.at.tangent;
+    const Vec3f across = normalize(wi - axis * dot(wi, axis), -surface.outward);
+    const float chord = -2 * dot(surface.at.position - surface.fibre_center, across);
+    return offset_ray_origin(surface.at.position + across * std::max(chord, 0.0F), across);
+}
 
 Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit,
                      const Footprint& footprint) {

@@ -16,7 +16,13 @@ struct Surface {
     const SceneObject* object = nullptr;
     const ShaderProgram* shader = nullptr;
     float t = 0;  ///< along the ray
+    /// Round curves: rays to the far side leave from there, for their lobes are those of the whole fibre.
+    bool round_fibre = false;
+    Vec3f fibre_center;  ///< of the cross-section, world space
 };
+
+/// Where a ray that leaves the surface toward `wi` starts.
+[[nodiscard]] Vec3f start_of_ray(const Surface& surface, Vec3f wi);
 
 /// Width of a ray's footprint, for texture filtering: `width + spread * distance` scene units.
 struct Footprint {

@@ -17,7 +17,10 @@ struct ShadePoint {
     Vec2f uv;                         ///< first uv set
     Vec2f barycentric;                ///< of the triangle
     float uv_width = 0;               ///< footprint of the ray in uv units, for texture filtering
-    std::uint32_t face = 0;           ///< polygon number within the shape
+    std::uint32_t face = 0;           ///< polygon or curve number within the shape
+    bool on_curve = false;            ///< `tangent` is along the fibre, the next two are set
+    Vec2f curve_uv;                   ///< x across, y from root to tip, [0,1]
+    float curve_offset = 0;           ///< across, [-1,1], as seen from `wo`
     std::uint32_t shape_id = 0;       ///< the shape's `id` parameter or a hash of its name
     RayType ray_type = RayType::Camera;  ///< of the ray that hit
     bool entering = true;         ///< the ray came from the side that `geometric_normal` points to

@@ -48,8 +48,33 @@ struct SphereList {
     std::vector<float> radii;
 };
 
+/// Hair, grass, thread: segments of curves with a radius. Cubic ones are Bezier segments, whatever basis the node was given
+/// in, so that rays and shading know one kind only.
+struct CurveList {
+    enum class Mode : std::uint8_t {
+        Ribbon,  ///< flat, always turned to the viewer; shaded as the round fibre that it stands for
+        Thick,    ///< round
+        Oriented  ///< flat, across the given normals
+    };
+    /// Of one segment.
+    struct Segment {
+        std::uint32_t first = 0;  ///< control point; a cubic segment has 4, a linear one 2
+        std::uint32_t curve = 0;  ///< number of the curve in the node
+        float v0 = 0, v1 = 1;     ///< how far along its curve the segment begins and ends, [0,1]
+    };
+    Mode mode = Mode::Ribbon;
+    bool linear = false;                      ///< segments are straight: two control points each
+    std::vector<std::vector<Vec3f>> points;   ///< control points, one list a motion key
+    std::vector<std::vector<float>> radii;    ///< of the control points; as many keys as points
+    std::vector<std::vector<Vec3f>> normals;  ///< of the control points; Oriented only
+    std::vector<Segment> segments;
+    std::vector<Vec2f> uvs;  ///< by curve; empty: shaders see across and along as uv
+
+    [[nodiscard]] std::uint32_t n_controls() const { return linear ? 2 : 4; }
+};
+
 struct ShapeGeometry {
-    std::variant<TriangleMesh, SphereList> data;
+    std::variant<TriangleMesh, SphereList, CurveList> data;
     /// A ginstance gives no geometry of its own but another node's.
     NodeRef instance_of;
     bool inherit_xform = true;
