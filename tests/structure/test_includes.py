@@ -12,12 +12,13 @@ import pytest
 LAYERS = {
     "core": set(),
     "lpe": {"core"},
+    "embed": {"core", "lpe", "lightsieve"},  # the last is include/lightsieve
     "bsdf": {"core"},
     "io": {"core"},
     "scene": {"core"},
     "nodes": {"core", "bsdf", "io", "scene"},
     "render": {"core", "lpe", "bsdf", "io", "scene"},
-    "python": {"core", "lpe", "bsdf", "io", "scene", "nodes", "render"},
+    "python": {"core", "lpe", "embed", "bsdf", "io", "scene", "nodes", "render"},
     "tool": {"core", "lpe", "bsdf", "io", "scene", "nodes", "render"},
 }
 
