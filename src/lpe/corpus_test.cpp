@@ -79,21 +79,31 @@ void check_verdicts(const Expr& expr, const TomlEntry& entry) {
         EXPECT_EQ(engines.dissent(path, false), "") << "should not take " << print_path(path);
 }
 
+/// A generated row names the first error only, without its hint.
+void check_errors(const Diagnostics& diagnostics, const TomlEntry& entry) {
+    std::vector<Report> found = found_reports(diagnostics, Severity::Error);
+    if (entry.has("generated") && !found.empty()) {
+        found.resize(1);
+        found[0].hint.clear();
+    }
+    EXPECT_EQ(found, expected_reports(entry, "errors")) << diagnostics.render();
+}
+
 void check_case(const TomlEntry& entry) {
     const std::string text = entry.text("expression");
     Diagnostics diagnostics;
     const Expr expr = parse(text, SourceSpan{}, diagnostics, {.standard = entry.has("standard")});
-    EXPECT_EQ(found_reports(diagnostics, Severity::Error), expected_reports(entry, "errors"))
-        << diagnostics.render();
+    check_errors(diagnostics, entry);
     EXPECT_EQ(expr == nullptr, diagnostics.has_errors());
     if (!expr) return;
+    check_verdicts(expr, entry);
+    if (entry.has("generated")) return;
     lint_expression(text, {}, "", expr, diagnostics);
     std::vector<Report> lints = found_reports(diagnostics, Severity::Lint);
     std::vector<Report> wanted = expected_reports(entry, "lints");
     std::ranges::sort(lints);
     std::ranges::sort(wanted);
     EXPECT_EQ(lints, wanted) << diagnostics.render();
-    check_verdicts(expr, entry);
 }
 
 std::vector<fs::path> corpus_files() {
@@ -105,17 +115,19 @@ std::vector<fs::path> corpus_files() {
 }
 
 TEST(Corpus, EveryRowHoldsForEveryEngine) {
-    std::size_t n_cases = 0;
+    std::size_t n_cases = 0, n_reasons = 0;
     for (const fs::path& file : corpus_files()) {
         for (const TomlEntry& entry : testing::read_toml(file)) {
             SCOPED_TRACE(file.filename().string() + ":" + std::to_string(entry.line) + " " +
                          entry.text("expression"));
             check_case(entry);
             ++n_cases;
+            n_reasons += entry.has("why") ? 1 : 0;
         }
     }
-    // A corpus that was not found must not pass.
-    EXPECT_GE(n_cases, 600U);
+    // A corpus that was not found, or that has lost rows, must not pass.
+    EXPECT_GE(n_cases, 2000U);
+    EXPECT_GE(n_reasons, 300U);
 }
 
 TEST(Corpus, WhatIsPrintedReadsTheSame) {

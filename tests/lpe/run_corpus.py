@@ -37,6 +37,7 @@ class Case:
     file: str
     line: int
     dialect: str
+    notation: str
     expression: str
     why: str
     standard: bool
@@ -56,6 +57,7 @@ class Case:
         return {
             "id": number,
             "dialect": self.dialect,
+            "notation": self.notation,
             "expression": self.expression,
             "standard": self.standard,
             "paths": list(self.paths),
@@ -78,12 +80,12 @@ def read_case(file: Path, line: int, entry: dict[str, Any]) -> Case:
         file=f"{file.parent.name}/{file.name}",
         line=line,
         dialect=entry.get("dialect", "arnold"),
+        notation="common" if "takes" in entry or "leaves" in entry else "arnold",
         expression=entry["expression"],
         why=entry.get("why", ""),
         standard=entry.get("standard", False),
         extension=entry.get("extension", False),
         by_hand=not entry.get("generated", False),
-        # Paths of the folder of dialects are written in another way (see its README).
         paths=tuple(path for path, _ in rows),
         verdicts=tuple(verdict for _, verdict in rows),
         error=(errors[0]["code"], errors[0]["column"]) if errors else None,
