@@ -9,13 +9,14 @@ import pathlib
 from collections.abc import Callable, Iterable
 
 HEADER = """\
-# Showcase: a still life in which every built-in AOV of surfaces has light in it.
+# Showcase: a still life in which every built-in AOV of surfaces and hair has light in it.
 #
 #   red torus knot     base and clear coat                    diffuse, coat
 #   blue ball          cloth                                  sheen
 #   copper ball        rough metal                            specular
 #   glass ball         refraction, an interior that tints     transmission, caustics off
 #   jade ball          closures with labels                   sss (walks below the surface), sss_jade
+#   fur ball           2000 curves                            hair (label of every lobe)
 #   tinted pane        thin-walled glass, the sky behind it   transmission_direct
 #   paper lamp         thin-walled, lit from inside           sss (diffuse transmission), opacity
 #   filament           emissive shape inside the lamp         emission (O)
@@ -336,6 +337,24 @@ layer
  base "jade_body"
 }
 
+standard_hair
+{
+ name fur_shader
+ base 1
+ base_color 1 1 1
+ melanin 0.32
+ melanin_redness 0.55
+ roughness 0.28
+ ior 1.55
+}
+
+lambert
+{
+ name fur_core_shader
+ Kd 0.08
+ Kd_color 1 0.8 0.6
+}
+
 standard_surface
 {
  name pane_shader
@@ -406,9 +425,17 @@ sphere
 sphere
 {
  name jade_ball
- center 0.1 0.2 1.45
+ center 0.1 0.2 1.25
  radius 0.2
  shader "jade_shader"
+}
+
+sphere
+{
+ name fur_core
+ center 1.2 0.27 0.95
+ radius 0.14
+ shader "fur_core_shader"
 }
 
 polymesh
@@ -431,14 +458,55 @@ sphere
 """
 
 
-# Every built-in AOV of surfaces; volumes come later. A star makes one layer for each light group.
+# Every built-in AOV of surfaces and hair; volumes come later. A star makes one layer for each light group.
 LIGHT_AOVS = """
 RGBA_* direct indirect emission background
 diffuse diffuse_direct diffuse_indirect specular specular_direct specular_indirect
 coat coat_direct coat_indirect sheen sheen_direct sheen_indirect
 transmission transmission_direct transmission_indirect sss sss_direct sss_indirect
-sss_jade albedo denoise_albedo diffuse_albedo specular_albedo coat_albedo sheen_albedo transmission_albedo sss_albedo
+sss_jade hair albedo denoise_albedo diffuse_albedo specular_albedo coat_albedo sheen_albedo transmission_albedo sss_albedo
 reflections
+"""
+
+
+def fur(name: str, shader: str, center: Vec, radius: float, length: float, count: int) -> str:
+    """Curves that stand on a ball, bend down and part a little: catmull-rom, whose outer points only steer."""
+    n = 6
+    points: list[Vec] = []
+    for i in range(count):
+        # Roots evenly over the ball (Fibonacci's spiral); leanings from an even sequence, so that every run writes the same.
+        y = 1 - 2 * (i + 0.5) / count
+        turn = math.pi * (1 + math.sqrt(5)) * i
+        across = math.sqrt(1 - y * y)
+        root = (across * math.cos(turn), y, across * math.sin(turn))
+        lean = [
+            0.7 * ((i * step) % 1 - 0.5) for step in (0.6180339887, 0.7548776662, 0.5698402910)
+        ]
+        for k in range(n):
+            s = (k - 1) / (n - 3)
+            out = radius + length * s * (1 - 0.15 * s)
+            points.append(
+                tuple(
+                    center[c]
+                    + root[c] * out
+                    + length * (lean[c] * s * abs(s) - (0.45 * s * s if c == 1 else 0))
+                    for c in range(3)
+                )  # type: ignore[arg-type]
+            )
+    return f"""
+curves
+{{
+ name {name}
+ shader "{shader}"
+ basis "catmull-rom"
+ mode "ribbon"
+ num_points {count} 1 UINT
+  {" ".join([str(n)] * count)}
+ points {len(points)} 1 VECTOR
+{vectors(points)}
+ radius {count} 1 FLOAT
+  {" ".join(["0.0022"] * count)}
+}}
 """
 
 
@@ -452,9 +520,10 @@ def outputs() -> str:
         "ID UINT closest exr",
     ]
     lines = "\n".join(f'  "{s}"' for s in strings)
-    return f""" light_path_expressions 2 1 STRING
+    return f""" light_path_expressions 3 1 STRING
   "reflections C<RS>+[LOB]"
   "sss_jade C<TD'jade'>.*"
+  "hair C'hair'.*"
  outputs {len(strings)} 1 STRING
 {lines}
 """
@@ -466,6 +535,7 @@ def main() -> None:
         grid_mesh("knot", "knot_shader", 160, 14, knot, closed=True),
         grid_mesh("lamp_shade", "paper_shader", 144, 10, shade, closed=True),
         grid_mesh("neon_tube", "neon_shader", 10, 64, tube, closed=True),
+        fur("fur", "fur_shader", (1.2, 0.27, 0.95), 0.14, 0.15, 2000),
     ]
     path = pathlib.Path(__file__).resolve().parent.parent / "scenes" / "showcase.ass"
     path.parent.mkdir(exist_ok=True)
