@@ -118,9 +118,11 @@ bool Compiler::shader_may_be_transparent(const NodeInstance& node) const {
 
 /// What ClosureSet::transmit_shadow says: transmission without caustics.
 bool Compiler::shader_may_tint_shadows(const NodeInstance& node) {
-    const auto* caustics = node.find<bool>("caustics");
-    if (caustics != nullptr && *caustics && !node.is_linked("caustics")) return false;
-    for (const char* name : {"transmission", "transmission_weight"}) {
+    for (const char* name : {"caustics", "enable_refractive_caustics"}) {
+        const auto* caustics = node.find<bool>(name);
+        if (caustics != nullptr && *caustics && !node.is_linked(name)) return false;
+    }
+    for (const char* name : {"transmission", "transmission_weight", "Kt"}) {
         const auto* weight = node.find<float>(name);
         if (weight != nullptr && (*weight > 0 || node.is_linked(name))) return true;
     }

@@ -77,6 +77,16 @@ TEST(Surface, EmitsAndHasHoles) {
     EXPECT_NEAR(p.alpha("RGBA", middle), 0.25, 1e-5);
 }
 
+TEST(AddAndMultiply, ComputeWithColoursToo) {
+    // Arnold's nodes of these names: no closures are linked, so they drive parameters.
+    const Picture p =
+        render(frame_text(8, 8, 2, from_above(1)) +
+               node("add", "sum", " input1 0.1 0.2 0.3\n input2 0.1 0.1 0.1") +
+               node("multiply", "product", " input1 \"sum\"\n input2 2 2 0.5") +
+               node("flat", "shown", " color \"product\"") + floor("plane", 0, 1, "shown"));
+    EXPECT_TRUE(check_constant(p, "RGBA", {0.4F, 0.6F, 0.2F}, 1e-5));
+}
+
 TEST(LabelClosure, NamesEveryLobeOfAnyShader) {
     const std::string coated = node("standard_surface", "paint",
                                     " base_color 0.5 0.1 0.1\n coat 1\n sheen 0.5\n caustics on") +

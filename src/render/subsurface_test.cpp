@@ -16,9 +16,9 @@ std::string sky() { return node("skydome_light", "sky", " camera 0"); }
 
 /// A floor so large that no walk finds its end, straight from above, under a white sky.
 Picture half_space(std::string_view more, int aa = 6) {
-    return render(
-        frame_text(16, 16, aa, from_above(1)) + skin(more) + floor("plane", 0, 100, "skin") + sky(),
-        in_memory({"sss", "sss_direct", "diffuse", "sss_albedo"}));
+    return render(frame_text(16, 16, aa, from_above(1)) + skin(more) +
+                      floor("plane", 0, 100, "skin") + sky(),
+                  in_memory({"sss", "sss_direct", "diffuse", "sss_albedo"}));
 }
 
 TEST(Subsurface, AHalfSpaceHasItsColour) {

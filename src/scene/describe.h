@@ -213,6 +213,15 @@ class Describe {
                 static_cast<const T*>(block)->eval(at, out);
             };
             type_.output = OutputType::Closure;
+            // A node may also compute with colours (add, multiply): then it can drive parameters too.
+            if constexpr (requires(const T& t, const ShadePoint& at) { t.value(at); }) {
+                type_.eval_value = [](const void* block, const ShadePoint& at) {
+                    return describe_detail::to_value(static_cast<const T*>(block)->value(at));
+                };
+                type_.output =
+                    describe_detail::output_type<decltype(std::declval<const T&>().value(
+                        std::declval<const ShadePoint&>()))>();
+            }
         } else if constexpr (requires(const T& t, const ShadePoint& at) { t.eval(at); }) {
             type_.eval_value = [](const void* block, const ShadePoint& at) {
                 return describe_detail::to_value(static_cast<const T*>(block)->eval(at));
