@@ -98,11 +98,33 @@ def test_mistakes_are_told_and_nothing_is_rendered(spheres: Path, tmp_path: Path
     assert list(tmp_path.iterdir()) == []
 
 
+def test_the_program_of_the_guide_prints_what_it_says(prefix: Path, tmp_path: Path) -> None:
+    page = (ROOT / "docs/embedding.md").read_text()
+    program, printed = (page.split(f"```{kind}\n")[1].split("```")[0] for kind in ("cpp", "text"))
+    (tmp_path / "guide.cpp").write_text(program)
+    done = run(
+        *("c++", "-std=c++17", "-Wall", "-Wextra", "-Werror", f"-I{prefix}/include"),
+        *(tmp_path / "guide.cpp", prefix / "lib/liblightsieve.a", "-pthread"),
+        *("-o", tmp_path / "guide"),
+    )
+    assert done.returncode == 0, done.stderr
+    assert run(tmp_path / "guide").stdout == printed
+
+
 def test_what_is_installed_stands_alone(prefix: Path) -> None:
     headers = sorted(p.name for p in (prefix / "include").rglob("*") if p.is_file())
     assert headers == ["lightsieve.h", "lpe.h"]
     for file in (*prefix.rglob("*.cmake"), *prefix.rglob("*.h")):
         assert str(ROOT) not in file.read_text(), file
+
+
+def test_the_engine_alone_looks_for_none_of_the_renderers_libraries(tmp_path: Path) -> None:
+    done = run("cmake", "-S", ROOT, "-B", tmp_path, "-DLIGHTSIEVE_RENDERER=OFF")
+    assert done.returncode == 0, done.stderr
+    cache = (tmp_path / "CMakeCache.txt").read_text().lower()
+    assert [
+        lib for lib in ("embree", "tbb", "zlib", "openimageio", "nanobind") if lib in cache
+    ] == []
 
 
 def test_python_packages_leave_the_engines_files_out() -> None:
