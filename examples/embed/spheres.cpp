@@ -51,7 +51,7 @@ const std::vector<Sphere> kSpheres = {
     {{2.1f, 1, 0}, 1, {.1f, .3f, .7f}},
     {{.9f, .3f, 1.6f}, .3f, {}, 0, false, {1, .8f, .3f}},
     {{-4, 6, 4}, 1, {}, 0, false, {16, 15, 13}, "key"},
-    {{5, 4, 2}, 1, {}, 0, false, {4, 5, 8}, "rim"},
+    {{1.2f, 2.8f, -2}, .4f, {}, 0, false, {25, 30, 50}, "rim"},
 };
 const Vec kSky{.15f, .2f, .3f};
 constexpr int kWidth = 120, kHeight = 80, kSamples = 64, kMaxBounces = 8;

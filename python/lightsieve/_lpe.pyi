@@ -134,6 +134,44 @@ class AovSet:
     def nearest(self, whole: int) -> list[int]:
         """AOVs without common paths that take the most of it."""
 
+class Tables:
+    """A program as flat arrays of 32-bit numbers."""
+
+    @property
+    def table(self) -> bytes:
+        """Rows: flags, next states, atoms."""
+
+    @property
+    def stride(self) -> int:
+        """Numbers a row."""
+
+    @property
+    def first_terminal(self) -> int:
+        """Column of the first atom."""
+
+    @property
+    def starts(self) -> bytes:
+        """Start of each automaton."""
+
+    @property
+    def event_columns(self) -> bytes:
+        """Of each event."""
+
+    @property
+    def atom_begin(self) -> bytes:
+        """Into `atom_aovs`."""
+
+    @property
+    def atom_aovs(self) -> bytes:
+        """The AOVs of each atom."""
+
+    @property
+    def events(self) -> list[str]:
+        """The events as paths write them."""
+
+def tables(expressions: Sequence[tuple[str, Expression]], events: Sequence[str] | None = None) -> Tables:
+    """Compiles named expressions to flat arrays."""
+
 class Builtin:
     """A built-in AOV."""
 

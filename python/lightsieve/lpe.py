@@ -21,7 +21,7 @@ import os
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from html import escape
-from typing import Literal, NamedTuple, cast
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 from lightsieve import _lpe
 from lightsieve.dialects import (
@@ -37,6 +37,9 @@ from lightsieve.dialects import (
 )
 from lightsieve.errors import Diagnostic
 from lightsieve.graphs import Graph
+
+if TYPE_CHECKING:
+    from lightsieve.tables import Tables
 
 __all__ = [
     "Builtin",
@@ -71,6 +74,7 @@ __all__ = [
     "resolve",
     "rest",
     "scene_properties",
+    "tables",
     "translate",
 ]
 
@@ -610,6 +614,49 @@ def graph(*expressions: str | Expression, context: Context | None = None) -> Gra
     context = _context_of(expressions, context)
     read = [_read(expression, context) for expression in expressions]
     return Graph(_lpe.graph([(e.name or e.text, e) for e in read], context._events))
+
+
+def tables(*expressions: str | Expression, context: Context | None = None) -> Tables:
+    """The automaton of a set of AOVs as flat arrays, for GPUs and other renderers.
+
+    Args:
+        *expressions: Expressions or AOVs' names.
+        context: What they are read in; its events are those that the arrays know, one of each
+            class that the expressions tell apart if it has none.
+
+    Returns:
+        The arrays; `save` writes them. docs/embedding.md describes the layout.
+
+    Raises:
+        LightsieveError: An expression cannot be read, or it exceeds a budget.
+
+    Example:
+        >>> made = tables("diffuse", "specular", context=Context(events=["RD", "RS", "L"]))
+        >>> made.table.shape, made.aovs
+        ((4, 4), ['diffuse', 'specular'])
+    """
+    import numpy as np
+
+    from lightsieve.tables import Tables
+
+    context = _context_of(expressions, context)
+    read = [_read(expression, context) for expression in expressions]
+    named = [(expression.name or expression.text, expression) for expression in read]
+    made = _lpe.tables(named, context._events)
+
+    def numbers(data: bytes) -> np.ndarray[tuple[int], np.dtype[np.uint32]]:
+        return np.frombuffer(data, np.uint32)
+
+    return Tables(
+        numbers(made.table).reshape(-1, made.stride),
+        made.first_terminal,
+        numbers(made.starts),
+        made.events,
+        numbers(made.event_columns),
+        [name for name, _ in named],
+        numbers(made.atom_begin),
+        numbers(made.atom_aovs),
+    )
 
 
 def builtins(table: Table = "reference") -> list[Builtin]:

@@ -10,6 +10,7 @@
 #include <string>
 #include <tuple>
 
+#include "embed/flat_tables.h"
 #include "lpe/algebra.h"
 #include "lpe/builtins.h"
 #include "lpe/cursor.h"
@@ -333,6 +334,62 @@ void add_expressions(nb::module_& module) {
                "raises LightsieveError with every error in it.");
 }
 
+/// A program as flat arrays, with the texts of its events.
+struct Tables {
+    embed::FlatTables flat;
+    std::vector<std::string> events;
+};
+
+/// The arrays of a program of all these expressions, over these events or one event of each class.
+Tables tables(const std::vector<NamedExpression>& expressions, const Events& events) {
+    std::vector<lpe::AovRequest> requests;
+    std::vector<lpe::Expr> exprs;
+    for (const auto& [name, expression] : expressions) {
+        requests.push_back({name, expression.tree});
+        exprs.push_back(expression.tree);
+    }
+    const std::vector<Event> made = events ? parse_events(*events) : lpe::abstract_events(exprs);
+    Diagnostics diagnostics;
+    const lpe::Program program = lpe::Program::compile(requests, made, {}, diagnostics);
+    diagnostics.throw_if_errors();
+    std::optional<embed::FlatTables> flat = embed::flatten(program, made);
+    if (!flat)
+        throw InputError(Error{Code::LimitLpeTable,
+                               "the AOVs together need too large a table",
+                               {},
+                               "ask for fewer AOVs at once"});
+    Tables out{*std::move(flat), {}};
+    for (const Event& event : made)
+        out.events.push_back(lpe::print_event(event));
+    return out;
+}
+
+/// Numbers of 32 bits in the machine's order.
+nb::bytes to_bytes(const std::vector<std::uint32_t>& numbers) {
+    return nb::bytes(numbers.data(), numbers.size() * sizeof(std::uint32_t));
+}
+
+void add_flat_tables(nb::module_& module) {
+    using embed::FlatTables;
+    const auto bytes_of = [](std::vector<std::uint32_t> FlatTables::* field) {
+        return [field](const Tables& t) { return to_bytes(t.flat.*field); };
+    };
+    nb::class_<Tables>(module, "Tables", "A program as flat arrays of 32-bit numbers.")
+        .def_prop_ro("table", bytes_of(&FlatTables::table), "Rows: flags, next states, atoms.")
+        .def_prop_ro(
+            "stride", [](const Tables& t) { return t.flat.stride; }, "Numbers a row.")
+        .def_prop_ro(
+            "first_terminal", [](const Tables& t) { return t.flat.first_terminal; },
+            "Column of the first atom.")
+        .def_prop_ro("starts", bytes_of(&FlatTables::starts), "Start of each automaton.")
+        .def_prop_ro("event_columns", bytes_of(&FlatTables::event_columns), "Of each event.")
+        .def_prop_ro("atom_begin", bytes_of(&FlatTables::atom_begin), "Into `atom_aovs`.")
+        .def_prop_ro("atom_aovs", bytes_of(&FlatTables::atom_aovs), "The AOVs of each atom.")
+        .def_ro("events", &Tables::events, "The events as paths write them.");
+    module.def("tables", &tables, "expressions"_a, "events"_a = nb::none(),
+               "Compiles named expressions to flat arrays.");
+}
+
 void add_questions(nb::module_& module) {
     module.def(
         "match",
@@ -436,6 +493,7 @@ void add_tables(nb::module_& module) {
 void add_lpe(nb::module_& module) {
     add_expressions(module);
     add_questions(module);
+    add_flat_tables(module);
     add_tables(module);
 }
 
