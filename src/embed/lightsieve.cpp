@@ -2,7 +2,6 @@
 #include "lightsieve/lightsieve.h"
 
 #include <algorithm>
-#include <exception>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -111,7 +110,7 @@ const char* lightsieve_version() { return kVersion.data(); }
 lightsieve_compiler* lightsieve_compiler_create() {
     try {
         return new lightsieve_compiler();
-    } catch (const std::exception&) {
+    } catch (...) {
         return nullptr;
     }
 }
@@ -126,7 +125,7 @@ uint32_t lightsieve_add_aov(lightsieve_compiler* compiler, const char* name,
         if (group != nullptr) wanted.group = group;
         compiler->aovs.push_back(std::move(wanted));
         return static_cast<uint32_t>(compiler->aovs.size() - 1);
-    } catch (const std::exception&) {
+    } catch (...) {
         return LIGHTSIEVE_NONE;
     }
 }
@@ -138,7 +137,7 @@ uint32_t lightsieve_add_event(lightsieve_compiler* compiler, const lightsieve_ev
         if (!made) return LIGHTSIEVE_NONE;
         compiler->events.push_back(*std::move(made));
         return static_cast<uint32_t>(compiler->events.size() - 1);
-    } catch (const std::exception&) {
+    } catch (...) {
         return LIGHTSIEVE_NONE;
     }
 }
@@ -174,7 +173,7 @@ lightsieve_program* lightsieve_compile(lightsieve_compiler* compiler) {
         for (const Error& error : diagnostics.items())
             compiler->reports.push_back(report_of(error));
         return program.release();
-    } catch (const std::exception&) {
+    } catch (...) {
         return nullptr;
     }
 }
