@@ -123,3 +123,8 @@ def test_an_expression_over_budget_is_an_error() -> None:
 def test_other_kinds_of_files_are_refused(made: Tables, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="h, "):
         made.save(tmp_path / "table.txt")
+
+
+def test_the_tables_of_all_built_ins_are_as_small_as_the_guide_says() -> None:
+    made = lpe.tables(*(builtin.name for builtin in lpe.builtins()))
+    assert (len(made.aovs), len(made.table), made.table.nbytes) == (35, 16, 768)
