@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -205,7 +205,7 @@ def main() -> None:
     args = parser.parse_args()
     size = QUICK if args.quick else FULL
     if args.rounds > 0:
-        size = Size(size.resolution, size.spp, size.n_triangles, args.rounds)
+        size = replace(size, rounds=args.rounds)
     document = run(size, args.threads)
     if args.json:
         print(json.dumps(document, indent=2))
