@@ -75,6 +75,11 @@ def shortest_paths(expression: Expression, n: int, events: Sequence[str] | None 
     The shortest paths that the expression takes, differing in more than labels.
     """
 
+def count_paths(expression: Expression, length: int, events: Sequence[str] | None = None) -> int:
+    """
+    How many different paths of that many events the expression takes; 2^64 - 1: at least.
+    """
+
 def graph(expressions: Sequence[tuple[str, Expression]], events: Sequence[str] | None = None) -> str:
     """The smallest automaton of named expressions as Graphviz text."""
 

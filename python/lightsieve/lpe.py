@@ -362,6 +362,29 @@ class Expression:
         """The n shortest paths that it takes, no two of which differ in labels only."""
         return [path(text) for text in _lpe.shortest_paths(self._read, n, self.context._events)]
 
+    def is_empty(self) -> bool:
+        """Whether it takes no path at all, or none that the context's scene can make."""
+        return not self.shortest_paths(1)
+
+    def count_paths(self, length: int) -> int:
+        """How many different paths it takes that have exactly so many events.
+
+        Args:
+            length: events, the camera's included.
+
+        Returns:
+            With a context of a scene the number of paths of the scene's events; otherwise events
+            count as different only if the expression tells them apart. 2**64 - 1 stands for all
+            larger numbers.
+
+        Raises:
+            LightsieveError: the automaton is too large.
+
+        >>> [parse("C(<RD>|<RS>+)L").count_paths(n) for n in (2, 3, 4)]
+        [0, 2, 1]
+        """
+        return _lpe.count_paths(self._read, length, self.context._events)
+
     def __and__(self, other: Expression) -> Expression:
         return Expression(f"({self.text}) & ({other.text})", self.context)
 

@@ -422,6 +422,16 @@ void add_questions(nb::module_& module) {
         },
         "expression"_a, "n"_a, "events"_a = nb::none(),
         "The shortest paths that the expression takes, differing in more than labels.");
+    module.def(
+        "count_paths",
+        [](const Expression& e, std::size_t length, const Events& events) {
+            return lpe::count_paths(
+                e.tree,
+                events ? parse_events(*events) : lpe::abstract_events(std::span(&e.tree, 1)),
+                length);
+        },
+        "expression"_a, "length"_a, "events"_a = nb::none(),
+        "How many different paths of that many events the expression takes; 2^64 - 1: at least.");
     module.def("graph", &graph, "expressions"_a, "events"_a = nb::none(),
                "The smallest automaton of named expressions as Graphviz text.");
     nb::class_<ExplanationTexts>(module, "Explanation", "What an expression takes, in words.")

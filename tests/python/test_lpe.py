@@ -22,6 +22,10 @@ def test_expressions_have_the_answers_as_methods() -> None:
     assert rest.compare("diffuse_indirect").relation == "equal"
     assert diffuse.explain().name == "diffuse"
     assert [path.text for path in diffuse.shortest_paths(2)] == ["C RD L", "C RD O"]
+    assert not diffuse.is_empty()
+    assert (diffuse - diffuse).is_empty()
+    assert [lpe.parse("C<RD>{2}L").count_paths(n) for n in (3, 4, 5)] == [0, 1, 0]
+    assert lpe.parse("C(<RD><RS>|<RS><RD>)L").count_paths(4) == 2
     assert repr(lpe.parse("CL")) == "lightsieve.lpe.parse('CL')"
 
 
