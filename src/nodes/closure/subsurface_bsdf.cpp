@@ -23,11 +23,8 @@ struct Subsurface : ScatterCommon {
     }
 
     void eval(const ShadePoint& at, ClosureSet& out) const {
-        const Color factor = Color::grey(unit(weight));
-        if (SubsurfaceMedium::has_depth(positive(radius)))
-            out.add_subsurface(0, SubsurfaceMedium(color, radius, anisotropy), factor);
-        else
-            out.add(0, DiffuseReflect(positive(color)), factor, frame(at, out), true);
+        add_below_surface(out, 0, positive(color), positive(radius), anisotropy,
+                          Color::grey(unit(weight)), frame(at, out));
     }
 };
 

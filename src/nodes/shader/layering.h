@@ -38,6 +38,16 @@ struct OrientedFrame {
     return DielectricReflect(alpha, eta);
 }
 
+/// Subsurface scattering; without a depth to walk in it is as good as diffuse reflection.
+inline void add_below_surface(ClosureSet& out, int lobe, Color color, Color radius,
+                              float anisotropy, Color weight, std::uint8_t frame,
+                              float roughness = 0) {
+    if (SubsurfaceMedium::has_depth(radius))
+        out.add_subsurface(lobe, SubsurfaceMedium(color, radius, anisotropy), weight);
+    else
+        out.add(lobe, DiffuseReflect(color, roughness), weight, frame, true);
+}
+
 /// Directional albedo of a lobe for a local direction.
 [[nodiscard]] inline Color albedo_of(const LobeModel& model, Vec3f wo) {
     return std::visit([&](const auto& lobe) { return lobe.albedo(wo); }, model);

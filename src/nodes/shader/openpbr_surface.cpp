@@ -188,11 +188,9 @@ class Layering {
                      weight * forward, base_.index, true);
             out_.add(kDiffuse, DiffuseReflect(color, s_.base_diffuse_roughness),
                      weight * (1 - forward), base_.index, true);
-        } else if (SubsurfaceMedium::has_depth(radius)) {
-            out_.add_subsurface(kSubsurface, SubsurfaceMedium(color, radius, g), weight);
         } else {
-            out_.add(kSubsurface, DiffuseReflect(color, s_.base_diffuse_roughness), weight,
-                     base_.index, true);
+            add_below_surface(out_, kSubsurface, color, radius, g, weight, base_.index,
+                              s_.base_diffuse_roughness);
         }
     }
 

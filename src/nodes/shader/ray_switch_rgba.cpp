@@ -1,6 +1,6 @@
 // ray_switch_rgba: another colour for each type of ray.
+#include "nodes/shader/ray_switch.h"
 #include "scene/describe.h"
-#include "scene/shade_point.h"
 
 namespace lightsieve {
 namespace {
@@ -27,17 +27,7 @@ struct RaySwitchRgba {
         return d.done();
     }
     [[nodiscard]] Rgba eval(const ShadePoint& at) const {
-        switch (at.ray_type) {
-            case RayType::Camera: return camera;
-            case RayType::Shadow: return shadow;
-            case RayType::DiffuseReflect: return diffuse_reflection;
-            case RayType::DiffuseTransmit:
-            case RayType::Subsurface: return diffuse_transmission;
-            case RayType::SpecularReflect: return specular_reflection;
-            case RayType::SpecularTransmit: return specular_transmission;
-            case RayType::Volume: break;
-        }
-        return volume;
+        return input_for_ray(*this, at.ray_type);
     }
 };
 

@@ -1,5 +1,6 @@
 // ray_switch_shader: another shader for each type of ray.
 #include "nodes/closure/closure_common.h"
+#include "nodes/shader/ray_switch.h"
 
 namespace lightsieve {
 namespace {
@@ -27,21 +28,8 @@ struct RaySwitchShader {
         return d.done();
     }
 
-    [[nodiscard]] const ShaderRef& chosen(RayType type) const {
-        switch (type) {
-            case RayType::Camera: return camera;
-            case RayType::Shadow: return shadow;
-            case RayType::DiffuseReflect: return diffuse_reflection;
-            case RayType::DiffuseTransmit:
-            case RayType::Subsurface: return diffuse_transmission;
-            case RayType::SpecularReflect: return specular_reflection;
-            case RayType::SpecularTransmit: return specular_transmission;
-            case RayType::Volume: break;
-        }
-        return volume;
-    }
     void eval(const ShadePoint& at, ClosureSet& out) const {
-        chosen(at.ray_type).closures(at, out);
+        input_for_ray(*this, at.ray_type).closures(at, out);
     }
 };
 

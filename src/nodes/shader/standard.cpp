@@ -98,15 +98,9 @@ void Standard::eval(const ShadePoint& at, ClosureSet& out) const {
         out.add(kBacklight, DiffuseTransmit(reflectance, diffuse_roughness), diffuse * back,
                 base.index, true);
     }
-    if (Ksss > 0) {
-        const Color radius = positive(sss_radius);
-        if (SubsurfaceMedium::has_depth(radius))
-            out.add_subsurface(kSubsurface, SubsurfaceMedium(positive(Ksss_color), radius, 0),
-                               diffuse * unit(Ksss));
-        else
-            out.add(kSubsurface, DiffuseReflect(positive(Ksss_color)), diffuse * unit(Ksss),
-                    base.index, true);
-    }
+    if (Ksss > 0)
+        add_below_surface(out, kSubsurface, positive(Ksss_color), positive(sss_radius), 0,
+                          diffuse * unit(Ksss), base.index);
     if (emission > 0) out.emit(kEmission, visible * (emission * positive(emission_color)));
 }
 

@@ -3,6 +3,7 @@
 // The paths R, TT and TRT through the fibre by Chiang et al. 2016 (bsdf/hair.h), tinted each for itself, blended with a
 // diffuse one; every event carries the label "hair". Pigment and base colour both absorb.
 #include "nodes/shader/hair_common.h"
+#include "nodes/shader/id_aovs.h"
 #include "scene/describe.h"
 #include "scene/node_context.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 enum : int { kReflection, kTransmission, kSecond, kDiffuse, kEmission };
 
-struct StandardHair {
+struct StandardHair : IdAovs {
     float base = 1, melanin = 1, melanin_redness = 0.5F, melanin_randomize = 0;
     Color base_color{1, 1, 1};
     float roughness = 0.2F, roughness_azimuthal = 0.2F, ior = 1.55F, shift = 3;
@@ -20,8 +21,6 @@ struct StandardHair {
     float diffuse = 0, emission = 0, indirect_diffuse = 1, indirect_specular = 1;
     Color diffuse_color{1, 1, 1}, emission_color{1, 1, 1}, opacity{1, 1, 1};
     std::int32_t extra_depth = 16, extra_samples = 0;
-    Name aov_id1, aov_id2, aov_id3, aov_id4, aov_id5, aov_id6, aov_id7, aov_id8;
-    Color id1, id2, id3, id4, id5, id6, id7, id8;
 
     static NodeType describe();
 
@@ -87,25 +86,6 @@ void describe_light(Describe<S>& d) {
     d.param("indirect_specular", &S::indirect_specular,
             "Factor on indirect light of the highlights.")
         .pending();
-}
-
-void describe_ids(Describe<S>& d) {
-    d.param("aov_id1", &S::aov_id1, "AOV into which id1 is written.").pending();
-    d.param("id1", &S::id1, "Colour for aov_id1.").ignored();
-    d.param("aov_id2", &S::aov_id2, "AOV into which id2 is written.").pending();
-    d.param("id2", &S::id2, "Colour for aov_id2.").ignored();
-    d.param("aov_id3", &S::aov_id3, "AOV into which id3 is written.").pending();
-    d.param("id3", &S::id3, "Colour for aov_id3.").ignored();
-    d.param("aov_id4", &S::aov_id4, "AOV into which id4 is written.").pending();
-    d.param("id4", &S::id4, "Colour for aov_id4.").ignored();
-    d.param("aov_id5", &S::aov_id5, "AOV into which id5 is written.").pending();
-    d.param("id5", &S::id5, "Colour for aov_id5.").ignored();
-    d.param("aov_id6", &S::aov_id6, "AOV into which id6 is written.").pending();
-    d.param("id6", &S::id6, "Colour for aov_id6.").ignored();
-    d.param("aov_id7", &S::aov_id7, "AOV into which id7 is written.").pending();
-    d.param("id7", &S::id7, "Colour for aov_id7.").ignored();
-    d.param("aov_id8", &S::aov_id8, "AOV into which id8 is written.").pending();
-    d.param("id8", &S::id8, "Colour for aov_id8.").ignored();
 }
 
 NodeType StandardHair::describe() {

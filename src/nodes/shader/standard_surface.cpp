@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bsdf/closure.h"
+#include "nodes/shader/id_aovs.h"
 #include "nodes/shader/layering.h"
 #include "scene/describe.h"
 #include "scene/node_context.h"
@@ -27,7 +28,7 @@ enum Lobes : int {
     kEmission
 };
 
-struct StandardSurface {
+struct StandardSurface : IdAovs {
     float base = 1;
     Color base_color{0.8F, 0.8F, 0.8F};
     float diffuse_roughness = 0, metalness = 0;
@@ -63,8 +64,6 @@ struct StandardSurface {
     Vec3f normal{0, 0, 0}, coat_normal{0, 0, 0}, tangent{0, 0, 0};
     bool caustics = false, internal_reflections = true, exit_to_background = false;
     float indirect_diffuse = 1, indirect_specular = 1;
-    Name aov_id1, aov_id2, aov_id3, aov_id4, aov_id5, aov_id6, aov_id7, aov_id8;
-    Color id1, id2, id3, id4, id5, id6, id7, id8;
 
     static NodeType describe();
     void prepare(NodeContext& context);
@@ -180,12 +179,9 @@ class Layering {
         if (s_.thin_walled) {
             out_.add(kSubsurface, DiffuseTransmit(color, s_.diffuse_roughness), weight,
                      base_.index, true);
-        } else if (SubsurfaceMedium::has_depth(radius)) {
-            out_.add_subsurface(kSubsurface,
-                                SubsurfaceMedium(color, radius, s_.subsurface_anisotropy), weight);
         } else {
-            out_.add(kSubsurface, DiffuseReflect(color, s_.diffuse_roughness), weight, base_.index,
-                     true);
+            add_below_surface(out_, kSubsurface, color, radius, s_.subsurface_anisotropy, weight,
+                              base_.index, s_.diffuse_roughness);
         }
     }
 
@@ -382,22 +378,7 @@ void describe_rest(Describe<S>& d) {
     d.param("indirect_specular", &S::indirect_specular,
             "Factor on indirect light of specular lobes.")
         .pending();
-    d.param("aov_id1", &S::aov_id1, "AOV into which id1 is written.").pending();
-    d.param("id1", &S::id1, "Colour for aov_id1.").ignored();
-    d.param("aov_id2", &S::aov_id2, "AOV into which id2 is written.").pending();
-    d.param("id2", &S::id2, "Colour for aov_id2.").ignored();
-    d.param("aov_id3", &S::aov_id3, "AOV into which id3 is written.").pending();
-    d.param("id3", &S::id3, "Colour for aov_id3.").ignored();
-    d.param("aov_id4", &S::aov_id4, "AOV into which id4 is written.").pending();
-    d.param("id4", &S::id4, "Colour for aov_id4.").ignored();
-    d.param("aov_id5", &S::aov_id5, "AOV into which id5 is written.").pending();
-    d.param("id5", &S::id5, "Colour for aov_id5.").ignored();
-    d.param("aov_id6", &S::aov_id6, "AOV into which id6 is written.").pending();
-    d.param("id6", &S::id6, "Colour for aov_id6.").ignored();
-    d.param("aov_id7", &S::aov_id7, "AOV into which id7 is written.").pending();
-    d.param("id7", &S::id7, "Colour for aov_id7.").ignored();
-    d.param("aov_id8", &S::aov_id8, "AOV into which id8 is written.").pending();
-    d.param("id8", &S::id8, "Colour for aov_id8.").ignored();
+    describe_ids(d);
 }
 
 NodeType StandardSurface::describe() {
