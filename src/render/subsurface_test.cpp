@@ -84,6 +84,18 @@ TEST(Subsurface, LongerPathsReachFurtherIntoShadow) {
     EXPECT_LT(far.g / near.g, far.r / near.r);
 }
 
+TEST(Subsurface, OfAStrandIsDiffuse) {
+    // A wide ribbon that fills the picture, under a white sky: as bright as its reflectance.
+    const Picture p = render(
+        frame_text(8, 8, 8, ortho_camera({0, 0, 3}, {0, 0, 0}, 0.2F)) +
+        skin(" subsurface_color 0.8 0.5 0.2") +
+        node("curves", "strand",
+             " shader \"skin\"\n mode \"ribbon\"\n basis \"linear\"\n num_points 2\n points 2 1 "
+             "VECTOR 0 -2 0 0 2 0\n radius 1") +
+        sky());
+    EXPECT_TRUE(check_mean(p, "RGBA", {0.8F, 0.5F, 0.2F}, 0.01));
+}
+
 TEST(Subsurface, TakesTheLightsSssFactor) {
     const auto lit = [](std::string_view factor) {
         return render(frame_text(8, 8, 4, from_above(1)) +

@@ -126,6 +126,9 @@ std::optional<WalkExit> walk_below(const Scene& scene, const Surface& entry,
                                    const SubsurfaceMedium& medium, Vec2f u_entry,
                                    const Sampler& sampler, std::uint32_t stream,
                                    std::uint64_t& n_rays) {
+    // A strand is too thin to have an inside: light comes out where it went in.
+    if (std::holds_alternative<CurveList>(entry.object->geometry->data))
+        return WalkExit{entry, entry.outward, entry.at.normal, medium.reflectance};
     return Walk(scene, entry, medium, sampler, stream, n_rays).run(u_entry);
 }
 

@@ -29,6 +29,7 @@ struct WalkExit {
 /// u_entry  direction into the medium, cosine-weighted
 /// sampler  gives the walk's numbers, from streams that begin with `stream`
 /// n_rays   grows by the rays that were traced
+/// Curves have no inside: there the light comes out where it went in, with the medium's reflectance.
 /// Nothing if the light is absorbed. A walk that does not end comes out where it went in: energy is kept.
 [[nodiscard]] std::optional<WalkExit> walk_below(const Scene& scene, const Surface& entry,
                                                  const SubsurfaceMedium& medium, Vec2f u_entry,
