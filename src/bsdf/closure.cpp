@@ -25,7 +25,10 @@ void ClosureSet::begin(Vec3f wo, const Frame& shading) {
     n_ = n_subsurfaces_ = n_emissions_ = n_frames_ = 0;
     n_dropped_ = 0;
     scale_ = kWhite;
-    transparency_ = shadow_transmission_ = matte_ = interior_ = kBlack;
+    transparency_ = shadow_transmission_ = matte_ = kBlack;
+    indirect_ = {};
+    interior_ = {};
+    disperses_ = false;
     records_ = {};
     add_frame(shading);
 }
@@ -47,6 +50,11 @@ const LobeRecord& ClosureSet::record(int lobe) const {
     return records_[static_cast<std::size_t>(lobe)];
 }
 
+float ClosureSet::indirect_of(const LobeRecord& record) const {
+    if (record.lobe == EventLobe::Diffuse) return indirect_.diffuse;
+    return record.kind == EventKind::Reflection ? indirect_.specular : 1;
+}
+
 void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame,
                      bool caustics) {
     const Color total = valid_weight(scale_ * weight);
@@ -55,7 +63,8 @@ void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_
         ++n_dropped_;
         return;
     }
-    closures_[n_++] = {model, total, &record(lobe), frame, caustics};
+    const LobeRecord& made = record(lobe);
+    closures_[n_++] = {model, total, &made, frame, caustics, indirect_of(made)};
 }
 
 void ClosureSet::add_subsurface(int lobe, const SubsurfaceMedium& medium, Color weight) {
@@ -65,7 +74,8 @@ void ClosureSet::add_subsurface(int lobe, const SubsurfaceMedium& medium, Color 
         ++n_dropped_;
         return;
     }
-    subsurfaces_[n_subsurfaces_++] = {medium, total, &record(lobe)};
+    const LobeRecord& made = record(lobe);
+    subsurfaces_[n_subsurfaces_++] = {medium, total, &made, indirect_of(made)};
 }
 
 void ClosureSet::emit(int lobe, Color radiance) {

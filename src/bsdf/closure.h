@@ -28,6 +28,8 @@ struct LobeRecord {
     bool subsurface = false;  ///< TD that walks below the surface: counts as a subsurface ray
     bool exit_to_background =
         false;  ///< rays past their depth limit see the background instead of black
+    /// transmit_aovs: the lobe makes no event; what is seen through it goes to AOVs, alpha and data as if it were seen past it.
+    bool makes_no_event = false;
     std::uint8_t extra_depth = 0;  ///< bounces beyond GI_specular_depth and GI_transmission_depth
 };
 
@@ -39,6 +41,7 @@ struct Closure {
     std::uint8_t frame = 0;  ///< into the set's frames
     /// Specular lobes with the shader's `caustics` off are dead at vertices that a diffuse ray reached.
     bool caustics = true;
+    float indirect = 1;  ///< factor on indirect light
 };
 
 struct Emission {
@@ -51,8 +54,22 @@ struct SubsurfaceClosure {
     SubsurfaceMedium medium;
     Color weight;  ///< multiplies what the walk brings
     const LobeRecord* record = nullptr;
+    float indirect = 1;  ///< factor on indirect light
 
     [[nodiscard]] Color albedo() const { return weight * medium.reflectance; }
+};
+
+/// What lies behind the surface of a clear body.
+struct Interior {
+    Color absorption;      ///< coefficient [1/scene unit]
+    float ior = 1;         ///< index of refraction, for the path's wavelength if it has one
+    int priority = 0;      ///< where bodies overlap the higher one is there
+    bool is_body = false;  ///< false: the surface has no inside
+};
+
+/// Factors on light that arrives from anything but a light, for diffuse and for specular reflection.
+struct IndirectFactors {
+    float diffuse = 1, specular = 1;
 };
 
 class ClosureSet {
@@ -73,6 +90,10 @@ class ClosureSet {
     /// Factor on everything added from now on (mix_shader); starts white.
     void set_scale(Color scale) { scale_ = scale; }
     [[nodiscard]] Color scale() const { return scale_; }
+    /// Factors on indirect light of the lobes that are added from now on; start at 1. Diffuse transmission and subsurface
+    /// scattering go by the diffuse one, specular transmission by none.
+    void set_indirect(IndirectFactors factors) { indirect_ = factors; }
+    [[nodiscard]] IndirectFactors indirect() const { return indirect_; }
     /// Adds lobe number `lobe` of the shader with the hit's shading frame. Black or non-finite weights are left out.
     void add(int lobe, const LobeModel& model, Color weight, bool caustics = true) {
         add(lobe, model, weight, 0, caustics);
@@ -90,8 +111,13 @@ class ClosureSet {
     /// Adds to what shadow rays of diffusely reflected light pass where other rays are refracted: with `caustics` off, glass
     /// casts tinted shadows instead of focusing light. Makes no event, as opacity.
     void transmit_shadow(Color weight) { shadow_transmission_ += scale_ * weight; }
-    /// What lies behind the surface absorbs light: coefficient [1/scene unit]. The last call counts.
-    void set_interior(Color absorption) { interior_ = absorption; }
+    /// The surface is that of a clear body. The last call counts.
+    void set_interior(Interior interior) {
+        interior_ = interior;
+        interior_.is_body = true;
+    }
+    /// What the set transmits on the far side bends by wavelength: ShadePoint::wavelength was used.
+    void disperse() { disperses_ = true; }
     /// The hit is a hole in the picture: black, and alpha is reduced by this.
     void matte(Color weight) { matte_ += scale_ * weight; }
 
@@ -106,7 +132,8 @@ class ClosureSet {
     [[nodiscard]] Color transparency() const { return transparency_; }
     [[nodiscard]] Color shadow_transmission() const { return shadow_transmission_; }
     [[nodiscard]] Color matte() const { return matte_; }
-    [[nodiscard]] Color interior() const { return interior_; }
+    [[nodiscard]] const Interior& interior() const { return interior_; }
+    [[nodiscard]] bool disperses() const { return disperses_; }
     /// Closures that did not fit; counted by the renderer, reported at the end.
     [[nodiscard]] std::uint32_t n_dropped() const { return n_dropped_; }
 
@@ -123,6 +150,7 @@ class ClosureSet {
 
   private:
     [[nodiscard]] const LobeRecord& record(int lobe) const;
+    [[nodiscard]] float indirect_of(const LobeRecord& record) const;
 
     std::array<Closure, kMaxClosures> closures_;
     std::array<SubsurfaceClosure, kMaxSubsurfaces> subsurfaces_;
@@ -132,7 +160,10 @@ class ClosureSet {
     std::size_t n_ = 0, n_subsurfaces_ = 0, n_emissions_ = 0, n_frames_ = 0;
     std::uint32_t n_dropped_ = 0;
     std::span<const LobeRecord> records_;
-    Color scale_{1, 1, 1}, transparency_, shadow_transmission_, matte_, interior_;
+    Color scale_{1, 1, 1}, transparency_, shadow_transmission_, matte_;
+    IndirectFactors indirect_;
+    Interior interior_;
+    bool disperses_ = false;
     Vec3f wo_;
 };
 

@@ -156,6 +156,22 @@ inline GgxAlpha random_stretched_alpha(Random& random) {
                      false,
                      {},
                      3e-2F});
+    cases.push_back({"film on a schlick base",
+                     [](Random& r) {
+                         const GgxAlpha alpha = random_alpha(r);
+                         const float thickness = r.between(0, 1000);
+                         const Color facing = r.color();
+                         return FilmedSchlickReflect(
+                             thickness, r.between(1.1F, 2.2F),
+                             SchlickReflect(alpha, facing, kWhite, r.color()));
+                     },
+                     false,
+                     {},
+                     3e-2F});
+    cases.push_back({"burley diffuse reflection", [](Random& r) {
+                         const Color color = r.color();
+                         return BurleyReflect(color, r.unit());
+                     }});
     cases.push_back({"sheen", [](Random& r) { return SheenReflect(r.between(0.1F, 1)); }, true});
     static constexpr std::array kPaths{HairPath::R, HairPath::TT, HairPath::TRT, HairPath::Rest};
     for (const HairPath path : kPaths)

@@ -259,6 +259,10 @@ TEST(Lobe, EdgesOfParametersAreSane) {
                                          Color::grey(a), a, h));
                     expect_sane(HairLobe(path, {a, a}, ior, Color::grey(nan), 0.1F, h));
                 }
+        expect_sane(FilmedSchlickReflect(
+            a, a, SchlickReflect(alpha, Color::grey(a), kWhite, Color(1, a, 0))));
+        expect_sane(BurleyReflect(kWhite, a));
+        expect_sane(BurleyReflect(Color(nan, -1, 1), 0.5F));
         expect_sane(DiffuseReflect(kWhite, a));
         expect_sane(DiffuseTransmit(Color(nan, -1, 1), a));
     }

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "bsdf/burley.h"
 #include "bsdf/conductor.h"
 #include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
@@ -20,9 +21,10 @@
 namespace lightsieve {
 
 /// One lobe; the first alternative is the cheapest to default-construct.
-using LobeModel = std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect,
-                               DielectricTransmit, ThinTransmit, ConductorReflect, SchlickReflect,
-                               SheenReflect, FilmReflect, HairLobe>;
+using LobeModel =
+    std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit,
+                 ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect, FilmReflect,
+                 FilmedSchlickReflect, HairLobe, BurleyReflect>;
 
 /// Lobes of fibres have no sides: light from behind the shading normal counts as much.
 [[nodiscard]] inline bool has_no_sides(const LobeModel& model) noexcept {

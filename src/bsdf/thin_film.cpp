@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "bsdf/ggx_compensation.h"
+#include "bsdf/spectrum.h"
 
 namespace lightsieve {
 namespace {
@@ -12,24 +13,6 @@ namespace {
 constexpr int kOrders = 3;
 /// Least share of the light that leaves a film at each turn.
 constexpr float kLeastEscape = 1e-6F;
-
-/// A Gaussian of the eye's sensitivity over the wave number. Belcour and Barla 2017, supplemental code.
-struct Sensitivity {
-    float value, position, variance;
-    int component;  ///< of XYZ
-};
-constexpr std::array<Sensitivity, 4> kEye{{{5.4856e-13F, 1.6810e+06F, 4.3278e+09F, 0},
-                                           {9.7470e-14F, 2.2399e+06F, 4.5282e+09F, 0},
-                                           {4.4201e-13F, 1.7953e+06F, 9.3046e+09F, 1},
-                                           {5.2481e-13F, 2.2084e+06F, 6.6121e+09F, 2}}};
-constexpr float kEyeNorm = 1 / 1.0685e-7F;
-
-/// XYZ, white where all wavelengths are equal, to ACEScg (CIE xy of AP1's primaries, Bradford adaptation from E to D60).
-Color rgb_of(const std::array<float, 3>& xyz) {
-    return {1.594218093F * xyz[0] - 0.367845807F * xyz[1] - 0.226372286F * xyz[2],
-            -0.690518968F * xyz[0] + 1.672303585F * xyz[1] + 0.018215383F * xyz[2],
-            0.011106827F * xyz[0] - 0.006693548F * xyz[1] + 0.995586721F * xyz[2]};
-}
 
 /// What does not depend on the polarisation nor on the base: the light's way through the film.
 struct Way {
@@ -70,11 +53,19 @@ Amplitudes fresnel(float cosine, std::complex<float> index) {
     return {(cosine - far) / (cosine + far), (squared * cosine - far) / (squared * cosine + far)};
 }
 
+/// Cosine within the film.
+float cosine_in_film(float cosine, float ior) {
+    return std::sqrt(1 - (1 - cosine * cosine) / (ior * ior));
+}
+
+/// Nearer to the horizon 1 - cos^2 rounds to 1.
+float off_horizon(float cosine) { return std::clamp(cosine, 1e-3F, 1.0F); }
+
 /// Reflectance with a base of one index for all wavelengths; eq. 10 of the paper, mean of both polarisations.
-Color reflectance_over(float cosine, float ior, float n, float k, const Way& way) {
-    const float cos_film = std::sqrt(1 - (1 - cosine * cosine) / (ior * ior));
-    const Amplitudes above = fresnel(cosine, ior),
-                     below = fresnel(cos_film, std::complex<float>(n, k) / ior);
+///
+/// below  amplitudes at the base
+Color reflectance_over(float cosine, float ior, const Amplitudes& below, const Way& way) {
+    const Amplitudes above = fresnel(cosine, ior);
     Color sum;
     for (std::size_t polarisation = 0; polarisation < 2; ++polarisation) {
         const float r12 = above[polarisation].real(), big_r12 = r12 * r12;
@@ -101,13 +92,35 @@ float limited(float v, float low, float high) {
 }  // namespace
 
 Color ThinFilm::reflectance(float cos_theta) const noexcept {
-    // Nearer to the horizon 1 - cos^2 rounds to 1.
-    const float cosine = std::clamp(cos_theta, 1e-3F, 1.0F);
-    const float cos_film = std::sqrt(1 - (1 - cosine * cosine) / (ior * ior));
+    const float cosine = off_horizon(cos_theta), cos_film = cosine_in_film(cosine, ior);
     const Way way(2 * ior * thickness * cos_film);
-    Color out = reflectance_over(cosine, ior, n.r, k.r, way);
-    if (n.g != n.r || k.g != k.r) out.g = reflectance_over(cosine, ior, n.g, k.g, way).g;
-    if (n.b != n.r || k.b != k.r) out.b = reflectance_over(cosine, ior, n.b, k.b, way).b;
+    const auto over = [&](float index, float extinction) {
+        return reflectance_over(
+            cosine, ior, fresnel(cos_film, std::complex<float>(index, extinction) / ior), way);
+    };
+    Color out = over(n.r, k.r);
+    if (n.g != n.r || k.g != k.r) out.g = over(n.g, k.g).g;
+    if (n.b != n.r || k.b != k.r) out.b = over(n.b, k.b).b;
+    return clamp(out, 0, 1);
+}
+
+Color FilmOnSchlick::reflectance(float cos_theta) const noexcept {
+    const float cosine = off_horizon(cos_theta), cos_film = cosine_in_film(cosine, ior);
+    const Way way(2 * ior * thickness * cos_film);
+    const Color seen = base.value(cos_film);
+    const float m = 1 - cos_film, m5 = square(square(m)) * m;
+    Color out;
+    for (int c = 0; c < 3; ++c) {
+        // The dielectric of that reflectance face on, seen from within the film; the rest of the curve keeps its proportions.
+        const float f0 = std::min(base.f0[c], 0.9999F), root = std::sqrt(f0);
+        const float index = (1 + root) / (1 - root);
+        const float facing = square((index - ior) / (index + ior));
+        const float plain = std::max(lerp(f0, base.f90[c], m5), 1e-6F);
+        const float reflected = std::min(seen[c] / plain * lerp(facing, base.f90[c], m5), 1.0F);
+        // A denser base turns the wave over.
+        const float amplitude = (index > ior ? 1.0F : -1.0F) * std::sqrt(reflected);
+        out[c] = reflectance_over(cosine, ior, {-amplitude, amplitude}, way)[c];
+    }
     return clamp(out, 0, 1);
 }
 
@@ -123,36 +136,58 @@ FilmReflect::FilmReflect(GgxAlpha roughness, float thickness, float film_ior, Co
     }
 }
 
+FilmedSchlickReflect::FilmedSchlickReflect(float thickness, float film_ior,
+                                           const SchlickReflect& base) noexcept
+    : alpha(base.alpha), film{limited(thickness, 0, 1e5F), limited(film_ior, 1, 4), base.curve} {}
+
 namespace {
 
 /// Facet reflectance times the compensation for wo.
+template <class Film>
 struct Facet {
-    ThinFilm film;
+    Film film;
     Color compensation;
     Color operator()(float cos_theta) const noexcept {
         return film.reflectance(cos_theta) * compensation;
     }
 };
 
-Facet facet(const FilmReflect& f, Vec3f wo) {
-    if (f.alpha.smooth()) return {f.film, kWhite};
-    return {f.film, kWhite + f.film.reflectance(1) * ggx_white(wo, f.alpha).lost};
+template <class Film>
+Facet<Film> facet(GgxAlpha alpha, const Film& film, Vec3f wo) {
+    if (alpha.smooth()) return {film, kWhite};
+    return {film, kWhite + film.reflectance(1) * ggx_white(wo, alpha).lost};
+}
+
+template <class Film>
+LobeEval eval_film(GgxAlpha alpha, const Film& film, Vec3f wo, Vec3f wi) {
+    if (!(wi.z > 0) || alpha.smooth()) return {};
+    return ggx_eval_reflection(wo, wi, alpha, facet(alpha, film, wo));
+}
+
+template <class Film>
+Color albedo_of_film(GgxAlpha alpha, const Film& film, Vec3f wo) {
+    return ggx_compensated_albedo(wo, alpha, film.reflectance(1),
+                                  [&](float cosine) { return film.reflectance(cosine); });
 }
 
 }  // namespace
 
 LobeEval FilmReflect::eval(Vec3f wo, Vec3f wi) const noexcept {
-    if (!(wi.z > 0) || alpha.smooth()) return {};
-    return ggx_eval_reflection(wo, wi, alpha, facet(*this, wo));
+    return eval_film(alpha, film, wo, wi);
 }
-
 LobeSample FilmReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {
-    return ggx_sample_reflection(wo, u, alpha, facet(*this, wo));
+    return ggx_sample_reflection(wo, u, alpha, facet(alpha, film, wo));
 }
+Color FilmReflect::albedo(Vec3f wo) const noexcept { return albedo_of_film(alpha, film, wo); }
 
-Color FilmReflect::albedo(Vec3f wo) const noexcept {
-    return ggx_compensated_albedo(wo, alpha, film.reflectance(1),
-                                  [&](float cosine) { return film.reflectance(cosine); });
+LobeEval FilmedSchlickReflect::eval(Vec3f wo, Vec3f wi) const noexcept {
+    return eval_film(alpha, film, wo, wi);
+}
+LobeSample FilmedSchlickReflect::sample(Vec3f wo, Vec2f u, float) const noexcept {
+    return ggx_sample_reflection(wo, u, alpha, facet(alpha, film, wo));
+}
+Color FilmedSchlickReflect::albedo(Vec3f wo) const noexcept {
+    return albedo_of_film(alpha, film, wo);
 }
 
 }  // namespace lightsieve

@@ -94,5 +94,38 @@ TEST(ThinFilm, ColoursChangeWithTheAngle) {
     EXPECT_GT(std::abs(std::log(hue_facing / hue_tilted)), 0.3F);
 }
 
+TEST(FilmOnSchlick, FaceOnIsThatOfTheDielectric) {
+    for (const float n : {1.2F, 1.8F, 3.0F, 9.0F})
+        for (const float thickness : {0.0F, 150.0F, 420.0F, 900.0F}) {
+            ThinFilm dielectric;
+            FilmOnSchlick schlick;
+            dielectric.thickness = schlick.thickness = thickness;
+            dielectric.ior = schlick.ior = 1.4F;
+            dielectric.n = Color::grey(n);
+            schlick.base = {Color::grey(square((n - 1) / (n + 1))), kWhite, kBlack};
+            const Color a = dielectric.reflectance(1), b = schlick.reflectance(1);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(a[c], b[c], 1e-4F) << n << " " << thickness;
+        }
+}
+
+TEST(FilmOnSchlick, AFilmOfAirIsNone) {
+    FilmOnSchlick film;
+    film.ior = 1;
+    film.thickness = 500;
+    film.base = SchlickCurve::through({0.9F, 0.6F, 0.2F}, {0.7F, 0.6F, 0.3F});
+    for (const float cosine : {1.0F, 0.5F, 1.0F / 7})
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(film.reflectance(cosine)[c], film.base.value(cosine)[c], 2e-3F);
+}
+
+TEST(FilmOnSchlick, ColoursMetal) {
+    FilmOnSchlick film;
+    film.thickness = 300;
+    film.base = {Color::grey(0.5F), kWhite, kBlack};
+    const Color c = film.reflectance(1);
+    EXPECT_GT(max_component(c) - std::min({c.r, c.g, c.b}), 0.1F);
+}
+
 }  // namespace
 }  // namespace lightsieve

@@ -88,8 +88,13 @@ void Compiler::fill_records() {
         const bool exits = switch_of(*shader, "exit_to_background"),
                    thin = switch_of(*shader, "thin_walled") ||
                           switch_of(*shader, "geometry_thin_walled");
+        const bool passes_aovs = switch_of(*shader, "transmit_aovs") ||
+                                 switch_of(*shader, "transmission_transmit_aovs");
         for (std::size_t i = 0; i < shader->records.size(); ++i) {
             shader->records[i].exit_to_background = exits;
+            shader->records[i].makes_no_event = passes_aovs &&
+                                                shader->records[i].lobe == EventLobe::Specular &&
+                                                shader->records[i].kind == EventKind::Transmission;
             if (shader->records[i].lobe == EventLobe::Specular)
                 shader->records[i].extra_depth = extra_depth_of(*shader);
             // Through a fibre goes a specular ray: it is in no body, and its depth and what lights give it are those of

@@ -63,6 +63,7 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
     }
     out->may_be_transparent = shader_may_be_transparent(node);
     out->may_tint_shadows = shader_may_tint_shadows(node);
+    scene_->disperses |= shader_may_disperse(node);
     for (const ShaderProgram* part : out->parts) {
         out->may_be_transparent |= part->may_be_transparent;
         out->may_tint_shadows |= part->may_tint_shadows;
@@ -125,6 +126,16 @@ bool Compiler::shader_may_tint_shadows(const NodeInstance& node) {
     for (const char* name : {"transmission", "transmission_weight", "Kt"}) {
         const auto* weight = node.find<float>(name);
         if (weight != nullptr && (*weight > 0 || node.is_linked(name))) return true;
+    }
+    return false;
+}
+
+/// What ClosureSet::disperse says: an index that depends on the wavelength.
+bool Compiler::shader_may_disperse(const NodeInstance& node) {
+    for (const char* name :
+         {"transmission_dispersion", "transmission_dispersion_scale", "dispersion_abbe"}) {
+        const auto* amount = node.find<float>(name);
+        if (amount != nullptr && (*amount > 0 || node.is_linked(name))) return true;
     }
     return false;
 }

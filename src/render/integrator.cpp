@@ -23,6 +23,11 @@ constexpr float kLeastSurvival = 0.05F;
 /// Segments of a path, transparent surfaces included: a guard against geometry that rays cannot leave.
 constexpr std::uint32_t kMaxSegments = 1024;
 
+/// The sampler's pair of dimensions for the path's wavelength; camera_sample has those before it.
+constexpr std::size_t kWavelengthPair = 3;
+
+float unit(float v) { return std::clamp(v, 0.0F, 1.0F); }
+
 /// The ray of a group as a bit of a mask.
 std::uint32_t bit_of(const PathGroup& group) { return ray_bit(group.key.ray_type); }
 
@@ -61,6 +66,9 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
     footprint_ = {camera_ray.width, camera_ray.spread};
     passed_ = kWhite;
     interiors_.clear();
+    wavelength_ =
+        scene_.disperses ? sample_wavelength(sampler.at2x4(0)[kWavelengthPair].x) : Wavelength{};
+    monochromatic_ = knows_first_ = false;
     n_scatter_ = n_transparent_ = 0;
     exit_pending_ = false;
     Ray ray{camera_ray.origin, camera_ray.direction, camera_ray.t_min, camera_ray.t_max, time};
@@ -92,19 +100,19 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         surface.at.ray_type = ray_type;
         const bool from_camera = ray_type == RayType::Camera;
         if (!surface.at.entering && (object.sidedness & ray_bit(ray_type)) == 0) {
-            ray.origin = start_of_ray(surface, ray.direction);
-            ray.t_min = 0;
-            ray.t_max -= hit.t;
+            go_straight(surface, ray);
             continue;
         }
         if (object.matte && from_camera) return;
 
         // Run the shader.
+        tell_path(surface.at, interiors_, surface.shader);
         closures_.begin(surface.at.wo, surface.frame);
         surface.shader->closures(surface.at, closures_);
         counts.dropped_closures += closures_.n_dropped();
         absorb(surface);
-        if (from_camera) note_first_hit(surface, camera_from_world);
+        if (pass_hidden_surface(surface, ray)) continue;
+        if (seen()) note_first_hit(surface, camera_from_world);
         if (!lights_only_) {
             add_emission();
             gather_channels(surface);
@@ -142,6 +150,7 @@ void Integrator<Tracker>::choose_mask_group() {
         u -= luminance(groups[chosen++].throughput);
     const float y = luminance(groups[chosen].throughput);
     if (!(y > 0)) return;
+    passed_ *= groups_[chosen].key.seen ? total / y : 0;
     groups_.keep_only(chosen, total / y);
     tracker_.keep_only(chosen, total / y);
 }
@@ -206,14 +215,36 @@ template <class Value>
 void Integrator<Tracker>::deposit_scattered(Terminal terminal, const Value& value) {
     Color total;
     const std::span<const PathGroup> groups = groups_.all();
+    const auto scaled = [&](std::size_t g, std::size_t c) {
+        return value(g, c) * groups_.indirect(g);
+    };
     for (std::size_t g = 0; g < groups.size(); ++g)
         for (std::size_t c = 0; c < n_channels_; ++c)
-            total += groups[g].throughput * value(g, c);
+            total += groups[g].throughput * scaled(g, c);
     if (is_black(total)) return;
     if (!is_finite(total)) return drop(terminal.event);
     const float scale = clamp_factor(total, n_scatter_ + 1);
     out_->beauty += total * scale;
-    tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, value, scale);
+    tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, scaled, scale);
+}
+
+template <class Tracker>
+template <class Value>
+void Integrator<Tracker>::deposit_scattered_light(const SceneLight& light, const Value& value) {
+    const Terminal as_light{light.as_light, light.light_event},
+        as_background{light.as_background, light.background_event};
+    if (!light.is_skydome) return deposit_scattered(as_light, value);
+    if (light.common.aov_indirect) return deposit_scattered(as_background, value);
+    const auto is_seen = [&](std::size_t g, std::size_t c) {
+        return groups_[g].key.seen && channels_[c].record->makes_no_event;
+    };
+    deposit_scattered(as_light, [&](std::size_t g, std::size_t c) {
+        return is_seen(g, c) ? kBlack : value(g, c);
+    });
+    if (some_group_is_seen())
+        deposit_scattered(as_background, [&](std::size_t g, std::size_t c) {
+            return is_seen(g, c) ? value(g, c) : kBlack;
+        });
 }
 
 /// Adds the area lights that the ray meets before `t_surface`. True if one of them hides what is behind it.
@@ -251,6 +282,11 @@ bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
         }
         LightHit seen_from = at;
         seen_from.distance = length(at.position - last_.position);
+        if (seen()) {
+            const float hidden = unit(light.common.transmission);
+            out_->alpha += average(passed_) * hidden;
+            passed_ *= 1 - hidden;
+        }
         add_met_light(index, light.light->hit(last_.position, seen_from), terminal, ray,
                       hit.t * (1 - kShadowEpsilon));
     }
@@ -273,9 +309,14 @@ void Integrator<Tracker>::add_met_light(std::uint32_t index, const LightEval& ev
         shadow.t_max = distance;
         arriving *= visibility_along(shadow, nullptr).straight;
     }
-    deposit(terminal, [&](std::size_t g) {
+    const auto brought = [&](std::size_t g) {
         return arriving * light_factor(light.common, groups_[g].key.ray_type, n_scatter_);
-    });
+    };
+    // A skydome that is seen, be it through glass, is background.
+    if (!light.is_skydome || !some_group_is_seen()) return deposit(terminal, brought);
+    deposit(terminal, [&](std::size_t g) { return groups_[g].key.seen ? kBlack : brought(g); });
+    deposit({light.as_background, light.background_event},
+            [&](std::size_t g) { return groups_[g].key.seen ? brought(g) : kBlack; });
 }
 
 /// Where shadow rays see other shapes than other rays do, they decide for both twins what hides a light.
@@ -291,10 +332,9 @@ float Integrator<Tracker>::add_infinite_lights(const Ray& ray) {
     for (const std::uint32_t index : scene_.infinite_lights) {
         const SceneLight& light = scene_.lights[index];
         const LightEval eval = light.light->escape(ray.direction);
-        if (n_scatter_ == 0 && light.common.camera > 0)
-            alpha = std::max(alpha, eval.pdf > 0 || !is_black(eval.radiance) || light.is_skydome
-                                        ? std::min(light.common.camera, 1.0F)
-                                        : 0.0F);
+        const float shown = n_scatter_ == 0 ? light.common.camera : light.common.transmission;
+        if (seen() && (eval.pdf > 0 || !is_black(eval.radiance) || light.is_skydome))
+            alpha = std::max(alpha, unit(shown));
         // A skydome seen directly is background, and so is the light of one with aov_indirect.
         const bool background = light.is_skydome && (n_scatter_ == 0 || light.common.aov_indirect);
         const Terminal terminal = background
@@ -321,11 +361,13 @@ void Integrator<Tracker>::add_escape(const Ray& ray) {
             return (scene_.background_visibility & bit_of(groups_[g])) != 0 &&
                    !groups_[g].key.lights_only;
         };
-        deposit({scene_.background_record.terminal, scene_.background_record.event},
-                [&](std::size_t g) { return visible(g) ? radiance : kBlack; });
-        if (n_scatter_ == 0 && visible(0)) alpha = 1;
+        deposit(
+            {scene_.background_record.terminal, scene_.background_record.event},
+            [&](std::size_t g) { return visible(g) ? radiance * groups_.indirect(g) : kBlack; });
+        for (std::size_t g = 0; g < groups_.all().size(); ++g)
+            if (groups_[g].key.seen && visible(g)) alpha = 1;
     }
-    if (n_scatter_ == 0) out_->alpha += average(passed_) * alpha;
+    if (seen()) out_->alpha += average(passed_) * alpha;
 }
 
 /// exit_to_background: shares past their depth limit take the background in place of what the ray would meet.
@@ -337,7 +379,7 @@ void Integrator<Tracker>::add_exit_background(const Ray& ray) {
     deposit(
         {scene_.background_record.terminal, scene_.background_record.event}, [&](std::size_t g) {
             return groups_[g].key.exits && (scene_.background_visibility & bit_of(groups_[g])) != 0
-                       ? radiance
+                       ? radiance * groups_.indirect(g)
                        : kBlack;
         });
 }
@@ -357,34 +399,68 @@ Color Integrator<Tracker>::background_along(const Ray& ray) const {
 /// what that was: a camera may stand in the body.
 template <class Tracker>
 void Integrator<Tracker>::absorb(const Surface& surface) {
-    const bool from_inside = !surface.at.entering && !is_black(closures_.interior());
-    const Color absorption = from_inside ? closures_.interior() : interiors_.absorption();
-    if (is_black(absorption)) return;
-    const Color left = transmittance(absorption, surface.t);
+    const Interior& own = closures_.interior();
+    const Interior* here = interiors_.here();
+    if (own.is_body && !surface.at.entering)
+        here = is_hidden(surface, own, interiors_) ? interiors_.around(surface.shader) : &own;
+    if (here == nullptr || is_black(here->absorption)) return;
+    const Color left = transmittance(here->absorption, surface.t);
     groups_.scale(left);
     tracker_.scale(left);
+    if (!seen()) return;
+    out_->alpha += average(passed_ * (kWhite - left));
+    passed_ *= left;
 }
 
-/// Alpha, and what data layers show: the first surface that is not wholly transparent.
 template <class Tracker>
-void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& camera_from_world) {
-    const Color opacity = clamp(kWhite - closures_.transparency(), 0, 1);
-    out_->alpha += average(passed_ * clamp(opacity - closures_.matte(), 0, 1));
-    if (out_->first.hit || is_black(opacity)) return;
-    out_->first = {true,
-                   -camera_from_world.point(surface.at.position).z,
-                   surface.at.normal,
-                   surface.at.position,
-                   surface.at.uv,
-                   surface.object->id,
-                   opacity};
+void Integrator<Tracker>::tell_path(ShadePoint& at, const Interiors& inside,
+                                    const ShaderProgram* shader) const {
+    at.wavelength = wavelength_.nm;
+    at.monochromatic = monochromatic_;
+    if (!scene_.settings.dielectric_priorities) return;
+    const Interior* around = inside.around(shader);
+    if (around != nullptr) at.outer_ior = around->ior;
+}
+
+/// Whether a body's surface lies inside of a body that wins over it.
+template <class Tracker>
+bool Integrator<Tracker>::is_hidden(const Surface& surface, const Interior& own,
+                                    const Interiors& inside) const {
+    return own.is_body && scene_.settings.dielectric_priorities &&
+           inside.hides(surface.shader, own, surface.at.entering);
+}
+
+template <class Tracker>
+bool Integrator<Tracker>::pass_hidden_surface(const Surface& surface, Ray& ray) {
+    const Interior& own = closures_.interior();
+    if (!is_hidden(surface, own, interiors_)) return false;
+    interiors_.cross(surface.shader, own, surface.at.entering);
+    go_straight(surface, ray);
+    return true;
+}
+
+/// Puts the ray's start behind a surface.
+template <class Tracker>
+void Integrator<Tracker>::go_straight(const Surface& surface, Ray& ray) const {
+    const Vec3f origin = start_of_ray(surface, ray.direction);
+    ray.t_max -= std::max(0.0F, dot(origin - ray.origin, ray.direction));
+    ray.origin = origin;
+    ray.t_min = 0;
+}
+
+template <class Tracker>
+bool Integrator<Tracker>::some_group_is_seen() const {
+    const std::span<const PathGroup> groups = groups_.all();
+    return std::any_of(groups.begin(), groups.end(),
+                       [](const PathGroup& g) { return g.key.seen; });
 }
 
 template <class Tracker>
 void Integrator<Tracker>::add_emission() {
     for (const Emission& e : closures_.emissions())
-        deposit({e.record->terminal, e.record->event},
-                [&](std::size_t g) { return groups_[g].key.lights_only ? kBlack : e.radiance; });
+        deposit({e.record->terminal, e.record->event}, [&](std::size_t g) {
+            return groups_[g].key.lights_only ? kBlack : e.radiance * groups_.indirect(g);
+        });
 }
 
 /// Lobes that make one event become one channel.
@@ -406,10 +482,12 @@ void Integrator<Tracker>::gather_channels(const Surface& surface) {
         all_delta_ = all_delta_ && closures_.delta(i);
         transmissive_ |=
             closures[i].record->kind == EventKind::Transmission || has_no_sides(closures[i].model);
-        put(i, {closures[i].record, closures[i].caustics});
+        put(i, {closures[i].record, closures[i].caustics, closures[i].indirect});
     }
-    for (std::size_t i = closures.size(); i < n_scatterers(); ++i)
-        put(i, {closures_.subsurfaces()[i - closures.size()].record, true});
+    for (std::size_t i = closures.size(); i < n_scatterers(); ++i) {
+        const SubsurfaceClosure& below = closures_.subsurfaces()[i - closures.size()];
+        put(i, {below.record, true, below.indirect});
+    }
 }
 
 template <class Tracker>
@@ -428,9 +506,10 @@ void Integrator<Tracker>::add_probes() {
     tracker_.add_scattered(
         std::span(channels_.data(), n_channels_), {scene_.probe, scene_.probe_event},
         [&](std::size_t g, std::size_t c) {
-            return groups_[g].key.lights_only || !channel_allowed(groups_[g].key, channels_[c])
-                       ? kBlack
-                       : albedo[c];
+            const bool none = groups_[g].key.lights_only ||
+                              !channel_allowed(groups_[g].key, channels_[c]) ||
+                              channels_[c].record->makes_no_event;
+            return none ? kBlack : albedo[c] * groups_.indirect(g);
         },
         1);
 }
@@ -474,13 +553,11 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
     const Visibility visible = visibility(surface, pick.light, sample);
     if (is_black(visible.tinted)) return;
     // What came through glass has no twin among the rays (diffuse rays end at glass), so its light sample stands alone.
-    const Color arriving = sample.radiance * (1 / (pdf_light * kept));
+    const Color arriving =
+        sample.radiance * color_of_wavelength(surface, sample.wi) * (1 / (pdf_light * kept));
     const Color to_specular = arriving * visible.straight * weight;
     const Color to_diffuse = to_specular + arriving * (visible.tinted - visible.straight);
-    const bool background = light.is_skydome && light.common.aov_indirect;
-    const Terminal terminal = background ? Terminal{light.as_background, light.background_event}
-                                         : Terminal{light.as_light, light.light_event};
-    deposit_scattered(terminal, [&](std::size_t g, std::size_t c) {
+    deposit_scattered_light(light, [&](std::size_t g, std::size_t c) {
         const GroupKey& key = groups_[g].key;
         if (key.lights_only || !channel_allowed(key, channels_[c])) return kBlack;
         const LobeRecord& record = *channels_[c].record;
@@ -539,6 +616,7 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -
     if (ignore == nullptr && !scene_.has_transparency) return out;
     // The limit counts surfaces that weaken the light; the object itself is passed as often as it takes.
     int guard = 0;
+    Interiors inside = interiors_;
     for (int passed = 0; passed <= scene_.settings.auto_transparency_depth &&
                          guard < static_cast<int>(kMaxSegments);
          ++guard) {
@@ -554,11 +632,15 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -
             if (!object.may_be_transparent && !object.may_tint_shadows) return dark;
             ShadePoint at = surface.at;
             at.ray_type = RayType::Shadow;
+            tell_path(at, inside, surface.shader);
             shadow_closures_.begin(at.wo, surface.frame);
             surface.shader->closures(at, shadow_closures_);
             const Color straight = clamp(shadow_closures_.transparency(), 0, 1);
+            const Interior& own = shadow_closures_.interior();
             out.straight *= straight;
-            out.tinted *= clamp(straight + shadow_closures_.shadow_transmission(), 0, 1);
+            if (!is_hidden(surface, own, inside))
+                out.tinted *= clamp(straight + shadow_closures_.shadow_transmission(), 0, 1);
+            if (own.is_body) inside.cross(surface.shader, own, at.entering);
             if (is_black(out.tinted)) return dark;
             ++passed;
         }

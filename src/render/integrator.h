@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 
+#include "bsdf/dispersion.h"
 #include "core/sobol.h"
 #include "render/film.h"
 #include "render/interiors.h"
@@ -81,8 +82,16 @@ class Integrator {
     float add_infinite_lights(const Ray& ray);
     void add_exit_background(const Ray& ray);
     [[nodiscard]] Color background_along(const Ray& ray) const;
+    /// What shaders must know of the path.
+    void tell_path(ShadePoint& at, const Interiors& inside, const ShaderProgram* shader) const;
+    void go_straight(const Surface& surface, Ray& ray) const;
     void absorb(const Surface& surface);
+    [[nodiscard]] bool is_hidden(const Surface& surface, const Interior& own,
+                                 const Interiors& inside) const;
+    /// A body's surface inside of a body that wins: the ray goes on as if there were nothing. False if the surface is there.
+    bool pass_hidden_surface(const Surface& surface, Ray& ray);
     void note_first_hit(const Surface& surface, const Mat4f& camera_from_world);
+    void note_behind(const Surface& surface, const Mat4f& camera_from_world);
     void add_emission();
     void gather_channels(const Surface& surface);
     void add_probes();
@@ -104,6 +113,7 @@ class Integrator {
     [[nodiscard]] std::optional<std::size_t> draw(float u) const;
     /// Moves all shares on through the channels; false if the path ends. factors[c] = f_c / density
     bool advance(std::span<const Color> factors, std::size_t drawn);
+    void see_past(std::span<const Color> factors);
     void add_light_at_exit(const WalkExit& exit);
     void drop(std::uint32_t event);
     template <class Value>
@@ -113,6 +123,9 @@ class Integrator {
     [[nodiscard]] bool by_shadow_rays() const;
     template <class Value>
     void deposit_scattered(Terminal terminal, const Value& value);
+    /// The same for light of a light: its event depends on whether anything but surfaces that make no event came before.
+    template <class Value>
+    void deposit_scattered_light(const SceneLight& light, const Value& value);
     /// How much light gets from the light to the surface.
     [[nodiscard]] Visibility visibility(const Surface& surface, std::uint32_t light,
                                         const LightSample& sample);
@@ -131,6 +144,15 @@ class Integrator {
         std::fill_n(values_.begin(), n_channels_, kBlack);
         return {values_.data(), n_channels_};
     }
+    [[nodiscard]] bool some_group_is_seen() const;
+    /// Whether the camera sees what the ray meets: no event yet, and not nothing left.
+    [[nodiscard]] bool seen() const { return !is_black(passed_); }
+    /// Colour of the path's wavelength, if a direction at the current vertex makes the path take it; else white.
+    [[nodiscard]] Color color_of_wavelength(const Surface& surface, Vec3f wi) const {
+        const bool takes =
+            closures_.disperses() && !monochromatic_ && dot(wi, surface.outward) < 0;
+        return takes ? wavelength_.weight : kWhite;
+    }
     [[nodiscard]] bool wanted() const { return scene_.plan.wants_beauty || tracker_.live(); }
 
     const Scene& scene_;
@@ -141,12 +163,14 @@ class Integrator {
     SampleBuffer* out_ = nullptr;
     LastVertex last_;
     Footprint footprint_;
-    Color passed_;      ///< what transparent surfaces let through on the camera ray
+    Color
+        passed_;  ///< what surfaces that the camera sees through have let through; black: it does not see the path's end
     Color path_start_;  ///< throughput at the camera, which roulette compares with
     std::uint32_t segment_ = 0;
-    SegmentPoints points_;   ///< of this segment
-    int n_scatter_ = 0;      ///< scattering events so far
-    int n_transparent_ = 0;  ///< transparent surfaces passed
+    SegmentPoints points_;      ///< of this segment
+    int n_scatter_ = 0;         ///< scattering events so far
+    int n_transparent_ = 0;     ///< transparent surfaces passed
+    bool knows_first_ = false;  ///< what data layers show has been decided
     bool exit_pending_ =
         false;  ///< the ray just left a surface past a depth limit with exit_to_background
     bool lights_only_ = false;  ///< no share of the path may meet anything but lights
@@ -159,6 +183,8 @@ class Integrator {
     std::array<std::uint8_t, kMaxChannels> channel_of_;
     std::array<float, kMaxChannels> probability_;  ///< of drawing each scatterer
     Interiors interiors_;                          ///< that the path is inside of
+    Wavelength wavelength_;                        ///< that the path takes when it must
+    bool monochromatic_ = false;                   ///< it has taken it
     float pass_probability_ = 0;                   ///< of going straight through
     bool transmissive_ = false;                    ///< some lobe sends light to the other side
     bool all_delta_ = false;                       ///< no light sample can get through any lobe

@@ -24,9 +24,9 @@ void Integrator<Tracker>::choose_probabilities() {
     // Throughput that may use each channel.
     const std::span<Color> reach = cleared_values();
     for (std::size_t c = 0; c < n_channels_; ++c)
-        for (const PathGroup& g : groups_.all())
-            if (!g.key.lights_only && channel_allowed(g.key, channels_[c]))
-                reach[c] += g.throughput;
+        for (std::size_t g = 0; g < groups_.all().size(); ++g)
+            if (!groups_[g].key.lights_only && channel_allowed(groups_[g].key, channels_[c]))
+                reach[c] += groups_[g].throughput * groups_.indirect(g);
     float total = 0;
     const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
     if (n == 1 && is_black(closures_.transparency())) {
@@ -59,10 +59,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
         tracker_.scale(factor);
         passed_ *= factor;
         ++n_transparent_;
-        const Vec3f origin = start_of_ray(surface, ray.direction);
-        ray.t_max -= std::max(0.0F, dot(origin - ray.origin, ray.direction));
-        ray.origin = origin;
-        ray.t_min = 0;
+        go_straight(surface, ray);
         return ray.t_max > 0;
     }
     u -= pass_probability_;
@@ -101,14 +98,15 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
             all += std::exchange(factor, Color{});
         factors[channel_of_[drawn]] = all;
     }
+    const Color wavelength = color_of_wavelength(surface, sample.wi);
+    for (Color& factor : factors)
+        factor *= wavelength;
     if (!advance(factors, drawn)) return false;
-    // Curves have no inside: rays to their far side are past them.
-    if (!is_black(closures_.interior()) && !surface.at.on_curve &&
-        dot(sample.wi, surface.outward) < 0) {
-        if (surface.at.entering)
-            interiors_.enter(surface.shader, closures_.interior());
-        else
-            interiors_.leave(surface.shader);
+    if (dot(sample.wi, surface.outward) < 0) {
+        monochromatic_ |= closures_.disperses();
+        // Curves have no inside: rays to their far side are past them.
+        if (closures_.interior().is_body && !surface.at.on_curve)
+            interiors_.cross(surface.shader, closures_.interior(), surface.at.entering);
     }
     last_.position = surface.at.position;
     last_.pick_normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
@@ -136,6 +134,27 @@ std::optional<std::size_t> Integrator<Tracker>::draw(float u) const {
     return drawn;
 }
 
+/// What the camera still sees after a vertex: what goes through channels that make no event.
+template <class Tracker>
+void Integrator<Tracker>::see_past(std::span<const Color> factors) {
+    Color through;
+    for (std::size_t c = 0; c < n_channels_; ++c)
+        if (channels_[c].record->makes_no_event) through += factors[c];
+    passed_ *= through;
+    if (is_black(passed_)) return;
+    // Past the depth limit is black, and not a hole.
+    for (std::size_t c = 0; c < n_channels_; ++c) {
+        if (!channels_[c].record->makes_no_event || is_black(factors[c])) continue;
+        for (const PathGroup& g : groups_.all()) {
+            if (!g.key.seen || !scene_.depth_rules.next(g.key, *channels_[c].record).lights_only)
+                continue;
+            out_->alpha += average(passed_);
+            passed_ = kBlack;
+            return;
+        }
+    }
+}
+
 template <class Tracker>
 bool Integrator<Tracker>::advance(std::span<const Color> factors,
                                   [[maybe_unused]] std::size_t drawn) {
@@ -150,6 +169,7 @@ bool Integrator<Tracker>::advance(std::span<const Color> factors,
     if (active_fault() == Fault::DepthFromDrawnLobe)
         counted = std::span<const Channel>(as_drawn.data(), n_channels_);
 #endif
+    if (seen()) see_past(factors);
     groups_.scatter(counted, factors, scene_.depth_rules, coin, step);
     tracker_.scatter(channels, factors, step, coin);
     ++n_scatter_;
@@ -203,6 +223,7 @@ bool Integrator<Tracker>::survives_roulette() {
     if (points_.roulette.x >= q) return false;
     groups_.scale(Color::grey(1 / q));
     tracker_.scale(Color::grey(1 / q));
+    passed_ *= 1 / q;
     return true;
 }
 
@@ -211,6 +232,7 @@ bool Integrator<Tracker>::survives_roulette() {
     template void Integrator<Tracker>::choose_probabilities();                           \
     template std::optional<std::size_t> Integrator<Tracker>::draw(float) const;          \
     template bool Integrator<Tracker>::scatter(const Surface&, Ray&);                    \
+    template void Integrator<Tracker>::see_past(std::span<const Color>);                 \
     template bool Integrator<Tracker>::advance(std::span<const Color>, std::size_t);     \
     template bool Integrator<Tracker>::scatter_below(const Surface&, std::size_t, Ray&); \
     template bool Integrator<Tracker>::survives_roulette();

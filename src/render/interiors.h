@@ -1,13 +1,17 @@
-// The absorbing bodies that a path is inside of, innermost last.
+// The clear bodies that a path is inside of, in the order in which it entered them.
 //
-// A body is known by its shader, since one body may be made of several shapes. A path enters it when it is refracted at the outside of its surface and leaves it at the inside. What it is inside of decides
-// how much light the way to the next surface takes away (Beer-Lambert).
+// A body is known by its shader, since one body may be made of several shapes. A path enters it when it is refracted at
+// the outside of its surface and leaves it at the inside. Bodies may overlap: water reaches into the wall of its glass, so
+// that no gap is left between them. There the body of higher priority is, of equals the one that was entered last. Its
+// index of refraction and its absorption count; surfaces of the others are not there.
+// Source: Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images".
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 
+#include "bsdf/closure.h"
 #include "core/vec.h"
 
 namespace lightsieve {
@@ -16,9 +20,9 @@ class Interiors {
   public:
     void clear() { n_ = 0; }
     /// body  the shader of the surface that the path went through to the inside
-    /// More than fit are not kept: they absorb nothing.
-    void enter(const void* body, Color absorption) {
-        if (n_ < bodies_.size()) bodies_[n_++] = {body, absorption};
+    /// More than fit are not kept: the path is as if outside of them.
+    void enter(const void* body, const Interior& interior) {
+        if (n_ < bodies_.size()) bodies_[n_++] = {body, interior};
     }
     /// The path went through such a surface to the outside. Bodies may overlap, so it need not be the last.
     void leave(const void* body) {
@@ -29,17 +33,50 @@ class Interiors {
             return;
         }
     }
+    /// Enters or leaves.
+    void cross(const void* body, const Interior& interior, bool entering) {
+        if (entering)
+            enter(body, interior);
+        else
+            leave(body);
+    }
     [[nodiscard]] bool empty() const { return n_ == 0; }
-    /// Absorption coefficient of the innermost body [1/scene unit].
-    [[nodiscard]] Color absorption() const {
-        return n_ == 0 ? kBlack : bodies_[n_ - 1].absorption;
+    /// The body that is there; null: air.
+    [[nodiscard]] const Interior* here() const { return around(nullptr); }
+    /// The one that is there beside `body`: what its surface borders on.
+    [[nodiscard]] const Interior* around(const void* body) const {
+        const std::size_t i = index_around(body);
+        return i == n_ ? nullptr : &bodies_[i].interior;
+    }
+    /// Whether the surface of a body is not there, because it lies in another one that wins.
+    [[nodiscard]] bool hides(const void* body, const Interior& interior, bool entering) const {
+        const std::size_t i = index_around(body);
+        if (i == n_) return false;
+        if (bodies_[i].interior.priority != interior.priority)
+            return bodies_[i].interior.priority > interior.priority;
+        return !entering && i + 1 > entered(body);
     }
 
   private:
     struct Body {
         const void* body = nullptr;
-        Color absorption;
+        Interior interior;
     };
+    [[nodiscard]] std::size_t index_around(const void* body) const {
+        std::size_t best = n_;
+        for (std::size_t i = 0; i < n_; ++i)
+            if (bodies_[i].body != body &&
+                (best == n_ || bodies_[i].interior.priority >= bodies_[best].interior.priority))
+                best = i;
+        return best;
+    }
+    /// How many bodies were entered until this one, itself included; 0: the path began in it.
+    [[nodiscard]] std::size_t entered(const void* body) const {
+        for (std::size_t i = n_; i-- > 0;)
+            if (bodies_[i].body == body) return i + 1;
+        return 0;
+    }
+
     std::array<Body, 8> bodies_;
     std::size_t n_ = 0;
 };

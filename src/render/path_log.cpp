@@ -9,6 +9,7 @@
 namespace lightsieve {
 
 HistoryMachine::State HistoryMachine::step(State state, const LobeRecord& record) const {
+    if (record.makes_no_event) return state;
     const auto [at, is_new] =
         index->try_emplace({state, record.event}, static_cast<State>(nodes->size()));
     if (is_new) nodes->emplace_back(state, record.event);

@@ -40,9 +40,11 @@ struct alignas(8) GroupKey {
     std::uint8_t forgotten =
         0;  ///< bounces of which only the number still matters, see DepthRules
     RayType ray_type = RayType::Camera;
-    bool lights_only =
+    bool lights_only : 1 =
         false;  ///< past a depth limit: the ray may still meet lights, everything else is black
-    bool exits = false;  ///< past a depth limit, and the shader says exit_to_background
+    bool exits : 1 = false;         ///< past a depth limit, and the shader says exit_to_background
+    bool seen : 1 = true;           ///< no event yet: the camera sees what the ray meets
+    std::uint8_t indirect : 5 = 0;  ///< factor on what the ray meets but lights, see PathGroups
     friend bool operator==(const GroupKey& a, const GroupKey& b) {
         return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
     }
@@ -64,13 +66,15 @@ struct alignas(8) GroupKey {
 struct Channel {
     const LobeRecord* record = nullptr;
     bool caustics = true;
+    float indirect = 1;  ///< factor on indirect light
 
     [[nodiscard]] bool matches(const Channel& other) const {
         const LobeRecord& a = *record;
         const LobeRecord& b = *other.record;
         return a.event == b.event && a.kind == b.kind && a.lobe == b.lobe &&
                a.subsurface == b.subsurface && a.exit_to_background == b.exit_to_background &&
-               a.extra_depth == b.extra_depth && caustics == other.caustics;
+               a.extra_depth == b.extra_depth && a.makes_no_event == b.makes_no_event &&
+               caustics == other.caustics && indirect == other.indirect;
     }
 };
 
@@ -98,6 +102,7 @@ class DepthRules {
         ++*counter;
         key.lights_only = *counter > limit + through.extra_depth || key.total() > limits_.total;
         key.exits = key.lights_only && through.exit_to_background;
+        key.seen = key.seen && through.makes_no_event;
         key.ray_type =
             type_matters_[static_cast<std::size_t>(type)] ? type : RayType::SpecularReflect;
         return canonical(key);
@@ -131,6 +136,8 @@ class DepthRules {
     std::array<bool, 8> type_matters_;
 };
 
+static_assert(sizeof(GroupKey) == 8);
+
 struct PathGroup {
     GroupKey key;
     Color throughput;
@@ -145,6 +152,10 @@ struct PathGroup {
 }
 
 /// The groups of a path.
+///
+/// A shader may scale indirect light alone. Whether light is indirect is known only when the next ray has met something:
+/// lights are direct. So the factor waits in the group until the next scattering, and whoever adds light that is no
+/// light's asks for `indirect`.
 class PathGroups {
   public:
     static constexpr std::size_t kMaxGroups = 8;
@@ -152,10 +163,13 @@ class PathGroups {
 
     void start(Color throughput) {
         n_ = 1;
+        n_factors_ = 1;
         groups_[0] = {GroupKey{}, throughput};
     }
     [[nodiscard]] std::span<const PathGroup> all() const { return {groups_.data(), n_}; }
     [[nodiscard]] const PathGroup& operator[](std::size_t i) const { return groups_[i]; }
+    /// Factor on what group `i` brings from anything but lights, and on all that it scatters.
+    [[nodiscard]] float indirect(std::size_t i) const { return factors_[groups_[i].key.indirect]; }
     [[nodiscard]] Color total() const {
         Color sum;
         for (std::size_t i = 0; i < n_; ++i)
@@ -177,7 +191,7 @@ class PathGroups {
         std::array<std::array<std::uint8_t, kMaxChannels>, kMaxGroups>
             to;  ///< new group, or kNone
         std::array<std::array<float, kMaxChannels>, kMaxGroups>
-            scale;  ///< factor of a coin that joined groups
+            scale;  ///< factor that waited, times that of a coin that joined groups
     };
 
     /// Moves every group through every channel. factors[c] = f_c / p_mix; black ones are left out.
@@ -186,20 +200,27 @@ class PathGroups {
     void scatter(std::span<const Channel> channels, std::span<const Color> factors,
                  const DepthRules& rules, const Random& random, Step& step) {
         std::array<PathGroup, kMaxCandidates>& candidates = candidates_;
+        const std::array<float, kMaxFactors> waiting = factors_;
+        std::array<std::uint8_t, kMaxChannels> factor_of;
+        n_factors_ = 1;
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            factor_of[c] = factor_index(channels[c].indirect);
         std::size_t n = 0;
         for (std::size_t g = 0; g < n_; ++g)
             for (std::size_t c = 0; c < channels.size(); ++c) {
                 step.to[g][c] = kNone;
-                step.scale[g][c] = 1;
-                if (groups_[g].key.lights_only || is_black(factors[c]) ||
+                const float scale = waiting[groups_[g].key.indirect];
+                step.scale[g][c] = scale;
+                if (groups_[g].key.lights_only || is_black(factors[c]) || scale == 0 ||
                     !channel_allowed(groups_[g].key, channels[c]))
                     continue;
-                const GroupKey key = rules.next(groups_[g].key, *channels[c].record);
+                GroupKey key = rules.next(groups_[g].key, *channels[c].record);
+                key.indirect = factor_of[c] & 31U;
                 std::size_t i = 0;
                 while (i < n && !(candidates[i].key == key))
                     ++i;
                 if (i == n) candidates[n++] = {key, Color{}};
-                candidates[i].throughput += groups_[g].throughput * factors[c];
+                candidates[i].throughput += groups_[g].throughput * factors[c] * scale;
                 step.to[g][c] = static_cast<std::uint8_t>(i);
             }
         const std::size_t before = n_;
@@ -213,8 +234,19 @@ class PathGroups {
     }
 
   private:
-    /// 8 groups times the 6 different next keys that a group can have.
-    static constexpr std::size_t kMaxCandidates = 48;
+    static constexpr std::size_t kMaxCandidates = kMaxGroups * kMaxChannels;
+    static_assert(kMaxCandidates < kNone);
+    /// Different factors at one vertex; as many as GroupKey::indirect can tell apart.
+    static constexpr std::size_t kMaxFactors = 32;
+    static_assert(kMaxChannels < kMaxFactors);
+
+    std::uint8_t factor_index(float factor) {
+        std::size_t i = 0;
+        while (i < n_factors_ && factors_[i] != factor)
+            ++i;
+        if (i == n_factors_) factors_[n_factors_++] = factor;
+        return static_cast<std::uint8_t>(i);
+    }
 
     /// Joins the two faintest candidates by a coin weighted with their luminance until they fit.
     template <class Random>
@@ -254,12 +286,14 @@ class PathGroups {
                 if (step.to[g][c] == kNone) continue;
                 const std::size_t i = step.to[g][c];
                 step.to[g][c] = slot[i];
-                step.scale[g][c] = factor[i];
+                step.scale[g][c] *= factor[i];
             }
     }
 
     std::array<PathGroup, kMaxGroups> groups_;
     std::size_t n_ = 0;
+    std::array<float, kMaxFactors> factors_{1};  ///< by GroupKey::indirect; the first is 1
+    std::size_t n_factors_ = 1;
     std::array<PathGroup, kMaxCandidates>
         candidates_;  ///< of `scatter`; kept, because clearing it costs more than using it
 };

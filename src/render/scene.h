@@ -72,6 +72,7 @@ struct RenderSettings {
     float low_light_threshold = 0.001F;  ///< light samples below it are traced only sometimes
     int roulette_depth = 4;
     float shutter_start = 0, shutter_end = 0;
+    bool dielectric_priorities = true;
 };
 
 class Scene {
@@ -101,6 +102,7 @@ class Scene {
     bool shadows_by_mask =
         false;  ///< some shape hides lights from shadow rays only, or from others only
     bool has_transparency = false;             ///< some shape may be transparent to shadows
+    bool disperses = false;                    ///< some shader bends light by wavelength
     bool capture = false, write_files = true;  ///< as RenderOptions
     AovPlan plan;
     SceneSummary summary;

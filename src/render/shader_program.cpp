@@ -123,7 +123,9 @@ ShaderValue ShaderProgram::value(const ShadePoint& at) const {
 void ShaderProgram::closures(const ShadePoint& at, ClosureSet& out) const {
     // A shader of shaders goes on with its own lobes afterwards.
     const std::span<const LobeRecord> outer = out.records();
+    const IndirectFactors outer_indirect = out.indirect();
     out.set_records(records);
+    out.set_indirect({});
     if (type_->eval_closure == nullptr) {
         out.emit(0, value(at).rgb);
     } else if (patches_.empty()) {
@@ -134,6 +136,7 @@ void ShaderProgram::closures(const ShadePoint& at, ClosureSet& out) const {
         type_->eval_closure(copy.bytes(), at, out);
     }
     out.set_records(outer);
+    out.set_indirect(outer_indirect);
 }
 
 }  // namespace lightsieve

@@ -27,7 +27,7 @@ struct AutomatonMachine {
     const lpe::Automaton* automaton = nullptr;
     [[nodiscard]] State start() const { return automaton->start(); }
     [[nodiscard]] State step(State state, const LobeRecord& record) const {
-        return automaton->step(state, record.event_class);
+        return record.makes_no_event ? state : automaton->step(state, record.event_class);
     }
     [[nodiscard]] bool live(State state) const {
         return automaton->live_light(state) || automaton->live_probe(state);

@@ -23,8 +23,13 @@ struct ShadePoint {
     float curve_offset = 0;           ///< across, [-1,1], as seen from `wo`
     std::uint32_t shape_id = 0;       ///< the shape's `id` parameter or a hash of its name
     RayType ray_type = RayType::Camera;  ///< of the ray that hit
-    bool entering = true;         ///< the ray came from the side that `geometric_normal` points to
-    float time = 0;               ///< [0,1) within the shutter
+    bool entering = true;  ///< the ray came from the side that `geometric_normal` points to
+    float time = 0;        ///< [0,1) within the shutter
+    float outer_ior = 1;   ///< index of what surrounds the body here: of another body, or of air
+    /// A wavelength for bodies that bend light by colour [nm]. `monochromatic`: the path already has that one, so that all
+    /// that depends on it must; else only what is refracted.
+    float wavelength = 587.6F;
+    bool monochromatic = false;
     const void* shape = nullptr;  ///< the renderer's record of the shape, for user data
 
     /// For environment look-ups (skydome colour, background): the direction, world space; only `uv` and this are set.

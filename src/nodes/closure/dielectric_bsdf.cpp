@@ -29,7 +29,9 @@ struct Dielectric : MicrofacetCommon {
         const std::uint8_t own = frame(at, out, tangent);
         // A body that only reflects is seen from outside on both sides; one that refracts has an inside.
         const bool inside = transmits(scatter_mode) && !at.entering;
-        const float eta = inside ? 1 / ior : ior;
+        const BodyIndex index(ior, 0, at);
+        const float eta = transmits(scatter_mode) ? index.refracting() : ior;
+        if (transmits(scatter_mode)) out.set_interior({kBlack, index.inside()});
         const LobeModel reflection = thinfilm_thickness > 0 && !inside
                                          ? LobeModel(filmed(Color::grey(ior), kBlack))
                                          : LobeModel(DielectricReflect(alpha(), eta));

@@ -28,18 +28,13 @@ struct GeneralizedSchlick : MicrofacetCommon {
         return d.done();
     }
 
-    void prepare(NodeContext& context) {
-        MicrofacetCommon::prepare(context);
-        if (thinfilm_thickness > 0 || context.is_linked("thinfilm_thickness"))
-            context.diagnostics().warning(
-                Code::ParamPending, "a film on a generalized_schlick_bsdf is not supported yet",
-                context.where("thinfilm_thickness"),
-                "dielectric_bsdf and conductor_bsdf have films");
-    }
-
     void eval(const ShadePoint& at, ClosureSet& out) const {
-        out.add(0, SchlickReflect(alpha(), color0, color90, color82), Color::grey(unit(weight)),
-                frame(at, out, tangent), caustics);
+        const SchlickReflect base(alpha(), color0, color90, color82);
+        const LobeModel model =
+            thinfilm_thickness > 0
+                ? LobeModel(FilmedSchlickReflect(thinfilm_thickness, thinfilm_ior, base))
+                : LobeModel(base);
+        out.add(0, model, Color::grey(unit(weight)), frame(at, out, tangent), caustics);
     }
 };
 

@@ -158,9 +158,10 @@ void describe_depths(Describe<Options>& d) {
     d.param("auto_transparency_depth", &Options::auto_transparency_depth,
             "Transparent surfaces (opacity) that one ray passes.")
         .hard_range(0, 10000);
-    d.param("dielectric_priorities", &Options::dielectric_priorities,
-            "Nested dielectrics go by priority; acts with dielectric_priority of shaders.")
-        .ignored();
+    d.param(
+        "dielectric_priorities", &Options::dielectric_priorities,
+        "Where clear bodies overlap, the one of higher dielectric_priority is there; off: every "
+        "surface borders on air.");
 }
 
 void describe_frame(Describe<Options>& d) {

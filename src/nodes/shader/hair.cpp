@@ -28,6 +28,7 @@ struct OldHair {
     void eval(const ShadePoint& at, ClosureSet& out) const {
         const Color visible = unit(opacity);
         out.transparent(kWhite - visible);
+        out.set_indirect({positive(indirect_diffuse), 1});
         const HairFibre fibre(at, out);
         const float along = at.on_curve ? at.curve_uv.y : at.uv.y;
         const Color color = lerp(unit(rootcolor), unit(tipcolor), unit(along));
@@ -75,7 +76,7 @@ NodeType OldHair::describe() {
         .range(0, 10);
     d.param("indirect_diffuse", &H::indirect_diffuse,
             "Factor on indirect light of the diffuse part.")
-        .pending();
+        .range(0, 1);
     d.param("kd_ind", &H::kd_ind, "Old name of indirect_diffuse.").ignored();
     d.param("diffuse_cache", &H::diffuse_cache, "Arnold's cache of diffuse light.").ignored();
     d.param("uparam", &H::uparam, "User data in place of u; not read, here curves know their own.")

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bsdf/closure.h"
+#include "bsdf/dispersion.h"
 #include "nodes/shader/shader_common.h"
 
 namespace lightsieve {
@@ -29,6 +30,36 @@ struct OrientedFrame {
     const std::uint8_t index = out.add_frame(frame);
     return {index, out.local_wo(index)};
 }
+
+/// Index of refraction of a clear body at one of its surfaces, for what is on the other side and for the path's wavelength.
+///
+/// A path that has no wavelength yet takes one when it is refracted; until then the mean index decides how much is reflected.
+class BodyIndex {
+  public:
+    /// ior   of the body, at the wavelength of the Abbe number; outside of its range clamped
+    /// abbe  0: no dispersion
+    BodyIndex(float ior, float abbe, const ShadePoint& at)
+        : at_(at),
+          mean_(ior > kLeast ? ior : kLeast),
+          disperses_(abbe > 0),
+          own_(std::max(dispersed_ior(mean_, abbe, at.wavelength), kLeast)) {}
+    [[nodiscard]] bool disperses() const { return disperses_; }
+    /// n(far side) / n(side of wo), for reflection and refraction.
+    [[nodiscard]] float reflecting() const { return relative(at_.monochromatic ? own_ : mean_); }
+    [[nodiscard]] float refracting() const { return relative(own_); }
+    /// Of the body, for paths that are inside.
+    [[nodiscard]] float inside() const { return own_; }
+
+  private:
+    static constexpr float kLeast = 1e-3F;
+    [[nodiscard]] float relative(float own) const {
+        return at_.entering ? own / at_.outer_ior : at_.outer_ior / own;
+    }
+    const ShadePoint& at_;
+    float mean_;
+    bool disperses_;
+    float own_;
+};
 
 /// Fresnel reflection. Tables of dielectrics end at kMaxEta; mirrors are made with larger indices, and those are metals
 /// without extinction.

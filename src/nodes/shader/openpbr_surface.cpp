@@ -85,7 +85,17 @@ class Layering {
           coat_(unit(s.coat_weight)),
           transmission_(unit(s.transmission_weight)),
           inside_(!at.entering && !s.geometry_thin_walled && transmission_ > 0),
-          base_(oriented(at, out, s.geometry_normal)) {}
+          index_{modulated_ior(), abbe_number(s), at},
+          base_(oriented(at, out, s.geometry_normal)) {
+        if (!(transmission_ > 0) || s.geometry_thin_walled) return;
+        const Color absorption =
+            s.transmission_depth > 0
+                ? interior_absorption(s.transmission_color, s.transmission_depth,
+                                      s.transmission_scatter)
+                : kBlack;
+        out.set_interior({absorption, index_.inside(), s.dielectric_priority});
+        if (index_.disperses()) out.disperse();
+    }
 
     /// Section 3.8: fuzz over everything.
     void add_fuzz() {
@@ -128,11 +138,14 @@ class Layering {
         const float metalness = unit(s_.base_metalness);
         if (metalness > 0) {
             const Color facing = unit(positive(s_.base_weight) * positive(s_.base_color));
-            out_.add(kMetal,
-                     SchlickReflect(specular_alpha(), facing, kWhite,
-                                    unit(positive(s_.specular_color))),
-                     left_ * (metalness * unit(s_.specular_weight)), specular_frame().index,
-                     s_.caustics);
+            const SchlickReflect metal(specular_alpha(), facing, kWhite,
+                                       unit(positive(s_.specular_color)));
+            const Color weight = left_ * (metalness * unit(s_.specular_weight));
+            const std::uint8_t frame = specular_frame().index;
+            out_.add(kMetal, metal, weight * (1 - film()), frame, s_.caustics);
+            if (film() > 0)
+                out_.add(kMetal, FilmedSchlickReflect(film_nm(), s_.thin_film_ior, metal),
+                         weight * film(), frame, s_.caustics);
         }
         left_ *= 1 - metalness;
     }
@@ -140,26 +153,32 @@ class Layering {
     void add_specular() {
         if (is_black(left_)) return;
         const Color tint = positive(s_.specular_color);
-        const LobeModel model = dielectric_reflection(specular_alpha(), relative_ior());
+        const bool body = transmission_ > 0 && !s_.geometry_thin_walled;
+        const LobeModel model =
+            dielectric_reflection(specular_alpha(), body ? index_.reflecting() : modulated_ior());
         const OrientedFrame frame = specular_frame();
         if (!inside_ || s_.internal_reflections)
-            out_.add(kSpecular, model, left_ * tint, frame.index, s_.caustics);
-        left_ *= complement(kWhite, model, frame.wo);
+            out_.add(kSpecular, model, left_ * tint * (1 - film()), frame.index, s_.caustics);
+        Color through = complement(kWhite, model, frame.wo);
+        if (film() > 0) {
+            const LobeModel filmed = FilmReflect(specular_alpha(), film_nm(), s_.thin_film_ior,
+                                                 Color::grey(modulated_ior()), kBlack);
+            out_.add(kSpecular, filmed, left_ * tint * film(), frame.index, s_.caustics);
+            through = lerp(through, complement(kWhite, filmed, frame.wo), film());
+        }
+        left_ *= through;
     }
 
     void add_transmission() {
         if (transmission_ > 0 && !is_black(left_)) {
             const bool tints_inside = s_.transmission_depth > 0 && !s_.geometry_thin_walled;
-            if (tints_inside)
-                out_.set_interior(interior_absorption(s_.transmission_color, s_.transmission_depth,
-                                                      s_.transmission_scatter));
             const Color weight =
                 left_ *
                 (transmission_ * (tints_inside ? kWhite : positive(s_.transmission_color)));
             const LobeModel model =
                 s_.geometry_thin_walled
                     ? LobeModel(ThinTransmit())
-                    : LobeModel(DielectricTransmit(specular_alpha(), relative_ior()));
+                    : LobeModel(DielectricTransmit(specular_alpha(), index_.refracting()));
             out_.add(kTransmission, model, weight, specular_frame().index, s_.caustics);
             if (!s_.caustics) out_.transmit_shadow(weight);
         }
@@ -230,6 +249,12 @@ class Layering {
             std::pow(std::min(1.0F, square(square(own)) + 2 * square(square(coat))), 0.25F);
         return stretched(lerp(own, blurred, coat_), s_.specular_roughness_anisotropy);
     }
+    /// Part of the surface that has the film; a film lies on the outside of bodies. Section 3.4.4.
+    [[nodiscard]] float film() const {
+        const bool has_film = s_.thin_film_thickness > 0 && !inside_ && !s_.geometry_thin_walled;
+        return has_film ? unit(s_.thin_film_weight) : 0;
+    }
+    [[nodiscard]] float film_nm() const { return 1000 * s_.thin_film_thickness; }
     /// specular_weight scales the reflectance face on. Section 3.4.2.
     [[nodiscard]] float modulated_ior() const {
         // Below a coat the interface is that between coat and base; turned over where that would reflect totally.
@@ -240,10 +265,10 @@ class Layering {
         const float e = ior < 1 ? -root : root;
         return (1 + e) / (1 - e);
     }
-    /// n(far side) / n(side of wo).
-    [[nodiscard]] float relative_ior() const {
-        const float ior = modulated_ior();
-        return inside_ ? 1 / ior : ior;
+    /// Section 3.6.1: the scale divides the Abbe number. 0: no dispersion.
+    [[nodiscard]] static float abbe_number(const OpenPbrSurface& s) {
+        const float scale = positive(s.transmission_dispersion_scale);
+        return scale > 0 ? positive(s.transmission_dispersion_abbe_number) / scale : 0;
     }
 
     const OpenPbrSurface& s_;
@@ -252,6 +277,7 @@ class Layering {
     Color left_;  ///< share of the light that the layers above let through
     float coat_, transmission_;
     bool inside_;  ///< of a transparent body
+    BodyIndex index_;
     OrientedFrame base_, specular_{};
     bool has_specular_frame_ = false;
 };
@@ -327,13 +353,12 @@ void describe_interior(Describe<S>& d) {
         .ignored();
     d.param("transmission_dispersion_scale", &S::transmission_dispersion_scale,
             "How much the index depends on the wavelength; 0: not.")
-        .pending();
+        .range(0, 1);
     d.param("transmission_dispersion_abbe_number", &S::transmission_dispersion_abbe_number,
-            "Abbe number at scale 1; acts with transmission_dispersion_scale.")
-        .ignored();
+            "Abbe number at scale 1.")
+        .range(9, 91);
     d.param("transmission_transmit_aovs", &S::transmission_transmit_aovs,
-            "AOVs and alpha pass through as if the surface were a hole.")
-        .pending();
+            "What is seen through the surface goes to its own AOVs, alpha and data layers.");
     d.param("subsurface_weight", &S::subsurface_weight,
             "Mix from diffuse reflection to subsurface scattering.")
         .range(0, 1);
@@ -364,14 +389,12 @@ void describe_layers(Describe<S>& d) {
     d.param("coat_darkening", &S::coat_darkening,
             "How much light is lost that the coat sends back to the base.")
         .range(0, 1);
-    d.param("thin_film_weight", &S::thin_film_weight, "Coverage by an iridescent film.").pending();
-    d.param("thin_film_thickness", &S::thin_film_thickness,
-            "Thickness of the film; acts with thin_film_weight.")
+    d.param("thin_film_weight", &S::thin_film_weight, "Coverage by an iridescent film.")
+        .range(0, 1);
+    d.param("thin_film_thickness", &S::thin_film_thickness, "Thickness of the film.")
         .unit("micrometres")
-        .ignored();
-    d.param("thin_film_ior", &S::thin_film_ior,
-            "Index of refraction of the film; acts with thin_film_weight.")
-        .ignored();
+        .range(0, 2);
+    d.param("thin_film_ior", &S::thin_film_ior, "Index of refraction of the film.").range(1, 3);
     d.param("emission_luminance", &S::emission_luminance, "Weight of the emission.")
         .range(0, kInfinity);
     d.param("emission_color", &S::emission_color, "Radiance emitted, seen through coat and fuzz.");
@@ -391,8 +414,9 @@ void describe_geometry(Describe<S>& d) {
             "Normal of the coat, world space; acts when linked.");
     d.param("geometry_coat_tangent", &S::geometry_coat_tangent,
             "Direction of the coat's anisotropy, world space; acts when linked.");
-    d.param("dielectric_priority", &S::dielectric_priority, "Which of overlapping bodies wins.")
-        .pending();
+    d.param(
+        "dielectric_priority", &S::dielectric_priority,
+        "Where clear bodies overlap, the one of higher priority is there; of equals the last.");
     d.param("caustics", &S::caustics, "Specular lobes are also seen by diffuse rays.");
     d.param("internal_reflections", &S::internal_reflections,
             "Rays inside of a clear body are reflected.");

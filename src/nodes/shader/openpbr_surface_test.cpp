@@ -132,12 +132,12 @@ TEST(OpenPbr, ThinWallsHaveNoInterior) {
     TestNode node(node_openpbr_surface());
     node.set("transmission_weight", 1.0F).set("transmission_depth", 2.0F);
     node.set("transmission_color", Color{0.5F, 0.25F, 1});
-    const Color inside = Shaded(node, 1).set.interior();
+    const Color inside = Shaded(node, 1).set.interior().absorption;
     EXPECT_NEAR(inside.r, std::log(2.0F) / 2, 1e-5);
     EXPECT_NEAR(inside.g, std::log(4.0F) / 2, 1e-5);
     EXPECT_EQ(inside.b, 0);
     node.set("geometry_thin_walled", true);
-    EXPECT_TRUE(is_black(Shaded(node, 1).set.interior()));
+    EXPECT_TRUE(is_black(Shaded(node, 1).set.interior().absorption));
     EXPECT_NEAR(Shaded(node, 1).weight(kTransmission).g / Shaded(node, 1).weight(kTransmission).b,
                 0.25F, 1e-5);
     node.set("transmission_weight", 0.0F).set("subsurface_weight", 1.0F);
@@ -153,6 +153,41 @@ TEST(OpenPbr, OpacityLetsRaysThrough) {
     EXPECT_EQ(s.set.transparency(), Color::grey(0.75F));
     node.set("geometry_opacity", 0.0F);
     EXPECT_TRUE(Shaded(node, 0.8F).set.closures().empty());
+}
+
+TEST(OpenPbr, FilmCoversAPart) {
+    TestNode node(node_openpbr_surface());
+    node.set("specular_roughness", 0.3F)
+        .set("base_metalness", 0.5F)
+        .set("thin_film_thickness", 0.4F)
+        .set("thin_film_ior", 1.33F);
+    const Shaded plain(node, 0.8F);
+    node.set("thin_film_weight", 0.25F);
+    const Shaded filmed(node, 0.8F);
+    std::size_t dielectric = 0, metal = 0;
+    for (const Closure& c : filmed.set.closures()) {
+        if (const auto* f = std::get_if<FilmReflect>(&c.model)) {
+            EXPECT_NEAR(f->film.thickness, 400, 1e-3F);
+            EXPECT_EQ(f->film.ior, 1.33F);
+            EXPECT_NEAR(c.weight.g, 0.25F * plain.weight(kSpecular).g, 1e-6F);
+            ++dielectric;
+        }
+        if (const auto* f = std::get_if<FilmedSchlickReflect>(&c.model)) {
+            EXPECT_NEAR(f->film.thickness, 400, 1e-3F);
+            EXPECT_NEAR(c.weight.g, 0.25F * plain.weight(kMetal).g, 1e-6F);
+            ++metal;
+        }
+    }
+    EXPECT_EQ(dielectric, 1U);
+    EXPECT_EQ(metal, 1U);
+    EXPECT_LE(max_component(filmed.total_albedo()), 1.003F);
+    // Inside of a body and on thin walls there is none.
+    node.set("transmission_weight", 1.0F).set("base_metalness", 0.0F);
+    for (const bool inside : {true, false}) {
+        node.set("geometry_thin_walled", !inside);
+        for (const Closure& c : Shaded(node, 0.8F, !inside).set.closures())
+            EXPECT_FALSE(std::holds_alternative<FilmReflect>(c.model));
+    }
 }
 
 }  // namespace

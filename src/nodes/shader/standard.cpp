@@ -65,6 +65,7 @@ void Standard::eval(const ShadePoint& at, ClosureSet& out) const {
     const Color visible = unit(opacity);
     out.transparent(kWhite - visible);
     if (is_black(visible)) return;
+    out.set_indirect({positive(indirect_diffuse), positive(indirect_specular)});
     const OrientedFrame base = oriented(at, out, normal);
     const bool inside = !at.entering && Kt > 0;
     Color diffuse = visible;
@@ -82,11 +83,12 @@ void Standard::eval(const ShadePoint& at, ClosureSet& out) const {
     reflect(kReflection, Kr, Kr_color, GgxAlpha(), Fresnel, Krn, enable_reflective_caustics);
     const Color refracted = positive(Kt) * positive(Kt_color);
     if (!is_black(refracted)) {
-        const float eta = inside ? 1 / IOR : IOR;
-        if (!(transmittance == kWhite))
-            out.set_interior(interior_absorption(transmittance, 1, {}));
+        const BodyIndex index(IOR, dispersion_abbe, at);
+        out.set_interior({interior_absorption(transmittance, 1, {}), index.inside()});
+        if (index.disperses()) out.disperse();
         out.add(kRefraction,
-                DielectricTransmit(GgxAlpha::from_roughness(unit(refraction_roughness)), eta),
+                DielectricTransmit(GgxAlpha::from_roughness(unit(refraction_roughness)),
+                                   index.refracting()),
                 visible * refracted, base.index, enable_refractive_caustics);
         if (!enable_refractive_caustics) out.transmit_shadow(visible * refracted);
     }
@@ -154,11 +156,14 @@ void describe_rest(Describe<S>& d) {
     d.param("refraction_roughness", &S::refraction_roughness, "Blur of what is seen through.")
         .range(0, 1);
     d.param("IOR", &S::IOR, "Index of refraction.").range(1, 3);
-    d.param("dispersion_abbe", &S::dispersion_abbe, "Abbe number; 0: no dispersion.").pending();
+    d.param("dispersion_abbe", &S::dispersion_abbe, "Abbe number; 0: no dispersion.");
+    d.param("indirect_diffuse", &S::indirect_diffuse, "Factor on indirect light of diffuse lobes.")
+        .range(0, 1);
+    d.param("indirect_specular", &S::indirect_specular,
+            "Factor on indirect light of specular reflection.")
+        .range(0, 1);
     for (const auto& [name, member] : {std::pair{"direct_diffuse", &S::direct_diffuse},
-                                       std::pair{"indirect_diffuse", &S::indirect_diffuse},
                                        std::pair{"direct_specular", &S::direct_specular},
-                                       std::pair{"indirect_specular", &S::indirect_specular},
                                        std::pair{"bounce_factor", &S::bounce_factor}})
         d.param(name, member, "Factor on one kind of light only.").pending();
     d.param("enable_glossy_caustics", &S::enable_glossy_caustics,

@@ -27,6 +27,7 @@ struct StandardHair : IdAovs {
     void eval(const ShadePoint& at, ClosureSet& out) const {
         const Color visible = unit(opacity);
         out.transparent(kWhite - visible);
+        out.set_indirect({positive(indirect_diffuse), positive(indirect_specular)});
         const float diffuse_part = unit(diffuse);
         const HairFibre fibre(at, out);
         add_paths(at, fibre, visible * (1 - diffuse_part), out);
@@ -82,10 +83,10 @@ void describe_light(Describe<S>& d) {
     d.param("extra_samples", &S::extra_samples, "Arnold's further rays a hit.").ignored();
     d.param("indirect_diffuse", &S::indirect_diffuse,
             "Factor on indirect light of the diffuse part.")
-        .pending();
+        .range(0, 1);
     d.param("indirect_specular", &S::indirect_specular,
             "Factor on indirect light of the highlights.")
-        .pending();
+        .range(0, 1);
 }
 
 NodeType StandardHair::describe() {

@@ -83,7 +83,19 @@ class Layering {
           coat_(unit(s.coat)),
           transmission_(unit(s.transmission)),
           inside_(!at.entering && !s.thin_walled && transmission_ > 0),
-          base_(oriented(at, out, s.normal)) {}
+          index_{s.specular_IOR, s.transmission_dispersion, at},
+          base_(oriented(at, out, s.normal)) {
+        out.set_indirect({positive(s.indirect_diffuse), positive(s.indirect_specular)});
+        if (transmission_ > 0 && !s.thin_walled) {
+            const Color absorption =
+                s.transmission_depth > 0
+                    ? interior_absorption(s.transmission_color, s.transmission_depth,
+                                          s.transmission_scatter)
+                    : kBlack;
+            out.set_interior({absorption, index_.inside(), s.dielectric_priority});
+            if (index_.disperses()) out.disperse();
+        }
+    }
 
     /// coat * coat_brdf, then lerp(1, coat_color * (1 - R), coat) for all below.
     void add_coat() {
@@ -128,7 +140,7 @@ class Layering {
         if (is_black(weight) || is_black(left_)) return;
         const GgxAlpha alpha = specular_alpha(roughness(0));
         const LobeModel model = has_film() ? filmed(alpha, Color::grey(s_.specular_IOR), kBlack)
-                                           : dielectric_reflection(alpha, relative_ior());
+                                           : dielectric_reflection(alpha, reflecting_ior());
         const OrientedFrame frame = specular_frame();
         if (!inside_ || s_.internal_reflections)
             out_.add(kSpecular, model, left_ * weight, frame.index, s_.caustics);
@@ -140,14 +152,11 @@ class Layering {
         if (transmission_ > 0 && !is_black(left_)) {
             const bool tints_inside = s_.transmission_depth > 0 && !s_.thin_walled;
             const Color tint = tints_inside ? kWhite : positive(s_.transmission_color);
-            if (tints_inside)
-                out_.set_interior(interior_absorption(s_.transmission_color, s_.transmission_depth,
-                                                      s_.transmission_scatter));
             const Color weight = left_ * (transmission_ * tint);
             const GgxAlpha alpha = specular_alpha(roughness(s_.transmission_extra_roughness));
-            const LobeModel model = s_.thin_walled
-                                        ? LobeModel(ThinTransmit())
-                                        : LobeModel(DielectricTransmit(alpha, relative_ior()));
+            const LobeModel model =
+                s_.thin_walled ? LobeModel(ThinTransmit())
+                               : LobeModel(DielectricTransmit(alpha, index_.refracting()));
             out_.add(kTransmission, model, weight, specular_frame().index, s_.caustics);
             if (!s_.caustics) out_.transmit_shadow(weight);
         }
@@ -210,9 +219,9 @@ class Layering {
     [[nodiscard]] LobeModel filmed(GgxAlpha alpha, Color n, Color k) const {
         return FilmReflect(alpha, s_.thin_film_thickness, s_.thin_film_IOR, n, k);
     }
-    /// n(far side) / n(side of wo).
-    [[nodiscard]] float relative_ior() const {
-        return inside_ ? 1 / s_.specular_IOR : s_.specular_IOR;
+    /// n(far side) / n(side of wo) for reflection; opaque surfaces and sheets border on air.
+    [[nodiscard]] float reflecting_ior() const {
+        return transmission_ > 0 && !s_.thin_walled ? index_.reflecting() : s_.specular_IOR;
     }
 
     /// Colours below the coat: raised to 1 + coat * coat_affect_color.
@@ -229,6 +238,7 @@ class Layering {
     Color left_;  ///< share of the light that the layers above let through
     float coat_, transmission_;
     bool inside_;  ///< of a transparent body
+    BodyIndex index_;
     OrientedFrame base_, specular_{};
     bool has_specular_frame_ = false;
 };
@@ -297,8 +307,7 @@ void describe_transmission(Describe<S>& d) {
             "Mean cosine of that scattering; acts with transmission_scatter.")
         .ignored();
     d.param("transmission_dispersion", &S::transmission_dispersion,
-            "Abbe number; 0: no dispersion.")
-        .pending();
+            "Abbe number: the lower, the more colours part; 0: not at all.");
     d.param("transmission_extra_roughness", &S::transmission_extra_roughness,
             "Added to specular_roughness for transmission.")
         .range(-1, 1);
@@ -306,10 +315,10 @@ void describe_transmission(Describe<S>& d) {
             "Arnold's darkness of shadows of clear bodies.")
         .ignored();
     d.param("transmit_aovs", &S::transmit_aovs,
-            "AOVs and alpha pass through as if the surface were a hole.")
-        .pending();
-    d.param("dielectric_priority", &S::dielectric_priority, "Which of overlapping bodies wins.")
-        .pending();
+            "What is seen through the surface goes to its own AOVs, alpha and data layers.");
+    d.param(
+        "dielectric_priority", &S::dielectric_priority,
+        "Where clear bodies overlap, the one of higher priority is there; of equals the last.");
 }
 
 void describe_subsurface_and_sheen(Describe<S>& d) {
@@ -373,11 +382,12 @@ void describe_rest(Describe<S>& d) {
             "Rays inside of a clear body are reflected.");
     d.param("exit_to_background", &S::exit_to_background,
             "Rays past their depth limit see the background instead of black.");
-    d.param("indirect_diffuse", &S::indirect_diffuse, "Factor on indirect light of diffuse lobes.")
-        .pending();
+    d.param("indirect_diffuse", &S::indirect_diffuse,
+            "Factor on indirect light of diffuse lobes and subsurface scattering.")
+        .range(0, 1);
     d.param("indirect_specular", &S::indirect_specular,
-            "Factor on indirect light of specular lobes.")
-        .pending();
+            "Factor on indirect light of specular reflection.")
+        .range(0, 1);
     describe_ids(d);
 }
 

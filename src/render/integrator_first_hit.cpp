@@ -1,0 +1,91 @@
+// What the camera sees of a surface beside its light: alpha, and what data layers (Z, N, ids) show.
+#include <algorithm>
+
+#include "render/integrator.h"
+#include "render/path_log.h"
+
+namespace lightsieve {
+namespace {
+
+FirstHit data_of(const Surface& surface, Color opacity, const Mat4f& camera_from_world) {
+    return {true,
+            -camera_from_world.point(surface.at.position).z,
+            surface.at.normal,
+            surface.at.position,
+            surface.at.uv,
+            surface.object->id,
+            opacity};
+}
+
+/// The first lobe whose light is seen past the surface, or nothing.
+std::optional<std::size_t> see_through_lobe(const ClosureSet& closures) {
+    const std::span<const Closure> all = closures.closures();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].record->makes_no_event) return i;
+    return std::nullopt;
+}
+
+}  // namespace
+
+/// Alpha, and what data layers show: the first surface that is not wholly transparent.
+template <class Tracker>
+void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& camera_from_world) {
+    const Color opacity = clamp(kWhite - closures_.transparency(), 0, 1);
+    const std::span<const Closure> closures = closures_.closures();
+    Color past;
+    for (std::size_t i = 0; i < closures.size(); ++i)
+        if (closures[i].record->makes_no_event) past += closures_.albedo(i);
+    out_->alpha += average(passed_ * clamp(opacity - closures_.matte() - past, 0, 1));
+    if (knows_first_ || is_black(opacity)) return;
+    knows_first_ = true;
+    if (is_black(past))
+        out_->first = data_of(surface, opacity, camera_from_world);
+    else
+        note_behind(surface, camera_from_world);
+}
+
+/// The data of what is seen past a surface with transmit_aovs. A way of its own: data must not depend on which lobe the
+/// path goes on by.
+template <class Tracker>
+void Integrator<Tracker>::note_behind(const Surface& front, const Mat4f& camera_from_world) {
+    shadow_closures_ = closures_;
+    Interiors inside = interiors_;
+    Surface surface = front;
+    for (int i = 0; i <= scene_.settings.depth.total + scene_.settings.auto_transparency_depth;
+         ++i) {
+        // On through the lobe, through a hole, or where a better body is.
+        const Interior& own = shadow_closures_.interior();
+        const std::optional<std::size_t> lobe = see_through_lobe(shadow_closures_);
+        const Color opacity = clamp(kWhite - shadow_closures_.transparency(), 0, 1);
+        const bool hidden = is_hidden(surface, own, inside);
+        Vec3f along = -surface.at.wo;
+        if (lobe && !hidden) {
+            const LobeSample sample = shadow_closures_.sample(*lobe, points_.direction, 0.5F);
+            if (!(sample.pdf > 0)) return;
+            along = sample.wi;
+        } else if (!hidden && !is_black(opacity)) {
+            out_->first = data_of(surface, opacity, camera_from_world);
+            return;
+        }
+        if (own.is_body && (lobe || hidden))
+            inside.cross(surface.shader, own, surface.at.entering);
+        const Ray ray{start_of_ray(surface, along), along, 0, kInfinity, surface.at.time};
+        RayHit hit;
+        ++counts.rays;
+        if (!scene_.accel->intersect(ray, ray_bit(RayType::SpecularTransmit), hit)) return;
+        surface = make_surface(scene_.objects[hit.object], ray, hit, footprint_);
+        surface.at.ray_type = RayType::SpecularTransmit;
+        tell_path(surface.at, inside, surface.shader);
+        shadow_closures_.begin(surface.at.wo, surface.frame);
+        surface.shader->closures(surface.at, shadow_closures_);
+    }
+}
+
+#define LIGHTSIEVE_FIRST_HIT(Tracker)                                                \
+    template void Integrator<Tracker>::note_first_hit(const Surface&, const Mat4f&); \
+    template void Integrator<Tracker>::note_behind(const Surface&, const Mat4f&);
+LIGHTSIEVE_FIRST_HIT(AovTracker)
+LIGHTSIEVE_FIRST_HIT(LogTracker)
+#undef LIGHTSIEVE_FIRST_HIT
+
+}  // namespace lightsieve
