@@ -29,6 +29,7 @@ void ClosureSet::begin(Vec3f wo, const Frame& shading) {
     indirect_ = {};
     interior_ = {};
     disperses_ = false;
+    shadow_matte_.background_record = nullptr;
     records_ = {};
     add_frame(shading);
 }
@@ -64,7 +65,8 @@ void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_
         return;
     }
     const LobeRecord& made = record(lobe);
-    closures_[n_++] = {model, total, &made, frame, caustics, indirect_of(made)};
+    closures_[n_++] = {
+        model, total, &made, frame, caustics, indirect_of(made), indirect_.direct_light};
 }
 
 void ClosureSet::add_subsurface(int lobe, const SubsurfaceMedium& medium, Color weight) {
@@ -76,6 +78,12 @@ void ClosureSet::add_subsurface(int lobe, const SubsurfaceMedium& medium, Color 
     }
     const LobeRecord& made = record(lobe);
     subsurfaces_[n_subsurfaces_++] = {medium, total, &made, indirect_of(made)};
+}
+
+void ClosureSet::show_shadows(int background, int shadow, ShadowMatte matte) {
+    shadow_matte_ = matte;
+    shadow_matte_.background_record = &record(background);
+    shadow_matte_.shadow_record = &record(shadow);
 }
 
 void ClosureSet::emit(int lobe, Color radiance) {

@@ -41,7 +41,8 @@ struct Closure {
     std::uint8_t frame = 0;  ///< into the set's frames
     /// Specular lobes with the shader's `caustics` off are dead at vertices that a diffuse ray reached.
     bool caustics = true;
-    float indirect = 1;  ///< factor on indirect light
+    float indirect = 1;        ///< factor on indirect light
+    bool direct_light = true;  ///< false: lights do not reach it directly
 };
 
 struct Emission {
@@ -70,6 +71,21 @@ struct Interior {
 /// Factors on light that arrives from anything but a light, for diffuse and for specular reflection.
 struct IndirectFactors {
     float diffuse = 1, specular = 1;
+    bool direct_light = true;  ///< false: no light that comes from a light
+};
+
+/// A surface that shows nothing but shadows, over what would be seen without it: the renderer asks the lights.
+struct ShadowMatte {
+    Color background;  ///< seen where no shadow is
+    bool sees_background =
+        false;  ///< what lies behind in place of it: options.background, skydomes
+    Color shadow_color{0, 0, 0};  ///< seen where the shadow is
+    float opacity = 1;            ///< of the shadow
+    float backlighting = 0;       ///< weight of light on the far side
+    Color diffuse{1, 1, 1};       ///< reflectance, for the difference that the shadow makes
+    bool alpha_is_mask = true;    ///< else the surface is opaque
+    const LobeRecord* background_record = nullptr;
+    const LobeRecord* shadow_record = nullptr;
 };
 
 class ClosureSet {
@@ -118,6 +134,8 @@ class ClosureSet {
     }
     /// What the set transmits on the far side bends by wavelength: ShadePoint::wavelength was used.
     void disperse() { disperses_ = true; }
+    /// The surface shows shadows; lobes number `background` and `shadow` of the shader make its events. The last call counts.
+    void show_shadows(int background, int shadow, ShadowMatte matte);
     /// The hit is a hole in the picture: black, and alpha is reduced by this.
     void matte(Color weight) { matte_ += scale_ * weight; }
 
@@ -134,6 +152,10 @@ class ClosureSet {
     [[nodiscard]] Color matte() const { return matte_; }
     [[nodiscard]] const Interior& interior() const { return interior_; }
     [[nodiscard]] bool disperses() const { return disperses_; }
+    /// Null: the surface is none of those.
+    [[nodiscard]] const ShadowMatte* shadow_matte() const {
+        return shadow_matte_.background_record == nullptr ? nullptr : &shadow_matte_;
+    }
     /// Closures that did not fit; counted by the renderer, reported at the end.
     [[nodiscard]] std::uint32_t n_dropped() const { return n_dropped_; }
 
@@ -164,6 +186,7 @@ class ClosureSet {
     IndirectFactors indirect_;
     Interior interior_;
     bool disperses_ = false;
+    ShadowMatte shadow_matte_;
     Vec3f wo_;
 };
 

@@ -268,6 +268,13 @@ TEST(Lobe, EdgesOfParametersAreSane) {
     }
 }
 
+template <class... Models>
+void expect_defaults_sane(const std::variant<Models...>&) {
+    (expect_sane(Models{}), ...);
+}
+
+TEST(Lobe, DefaultsAreSane) { expect_defaults_sane(LobeModel{}); }
+
 TEST(Lobe, EachStaysOnItsSide) {
     for_each_lobe([](const LobeCase&, const LobeModel& model, Vec3f wo, Random& random) {
         if (has_no_sides(model)) return;

@@ -20,7 +20,7 @@ struct DataAov {
 };
 
 /// AOVs that are no light path expressions, with the types that they can be written as.
-constexpr std::array<DataAov, 7> kDataAovs{{
+constexpr std::array<DataAov, 10> kDataAovs{{
     {"Z", LayerSource::Depth, {"FLOAT", "", ""}},
     {"N", LayerSource::Normal, {"VECTOR", "RGB", ""}},
     {"P", LayerSource::Position, {"VECTOR", "RGB", ""}},
@@ -28,6 +28,9 @@ constexpr std::array<DataAov, 7> kDataAovs{{
     {"opacity", LayerSource::Opacity, {"RGB", "FLOAT", ""}},
     {"ID", LayerSource::Id, {"UINT", "INT", ""}},
     {"uv", LayerSource::Uv, {"VECTOR2", "RGB", "VECTOR"}},
+    {"shadow", LayerSource::Shadow, {"RGB", "FLOAT", ""}},
+    {"shadow_diff", LayerSource::ShadowDifference, {"RGB", "FLOAT", ""}},
+    {"shadow_mask", LayerSource::ShadowMask, {"RGB", "FLOAT", ""}},
 }};
 
 constexpr std::array<std::string_view, 8> kTypes{"RGB",  "RGBA", "FLOAT",  "INT",

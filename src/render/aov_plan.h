@@ -25,16 +25,19 @@ class SceneGraph;
 
 /// Where a layer's values come from.
 enum class LayerSource : std::uint8_t {
-    Beauty,      ///< the accumulator of the beauty; with A if the type is RGBA
-    Expression,  ///< a light path expression
-    Depth,       ///< Z: distance along the viewing axis; 0 where nothing was hit
-    Normal,      ///< N: shading normal, world space
-    Position,    ///< P: world space
-    Alpha,       ///< A
-    Opacity,     ///< opacity of the first hit
-    Id,          ///< ID: the shape's id or a hash of its name
-    Uv,          ///< uv
-    Black,       ///< an expression with an error, under abort_on_error off
+    Beauty,            ///< the accumulator of the beauty; with A if the type is RGBA
+    Expression,        ///< a light path expression
+    Depth,             ///< Z: distance along the viewing axis; 0 where nothing was hit
+    Normal,            ///< N: shading normal, world space
+    Position,          ///< P: world space
+    Alpha,             ///< A
+    Opacity,           ///< opacity of the first hit
+    Shadow,            ///< of shadow_matte: how much light is missing, a channel each
+    ShadowDifference,  ///< of shadow_matte: the light that is missing
+    ShadowMask,        ///< of shadow_matte: how much light is missing in all
+    Id,                ///< ID: the shape's id or a hash of its name
+    Uv,                ///< uv
+    Black,             ///< an expression with an error, under abort_on_error off
 };
 
 /// Names of the AOVs that are no light path expressions.

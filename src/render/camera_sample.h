@@ -17,6 +17,7 @@ struct CameraSample {
     float time = 0;
     Mat4f camera_from_world;
     Vec2f offset;  ///< from the pixel's centre [pixels]
+    Vec2f film;    ///< [0,1]^2 over the frame, (0,0) the upper left corner
 };
 
 /// Makes the camera samples of one pass.

@@ -44,6 +44,9 @@ void Film::begin(const Pass& pass, int width, int height) {
         if (!wants_data_ && !sums.closest) continue;
         sums.data.assign(n, {});
         sums.opacity.assign(n, {});
+        sums.shadow.assign(n, {});
+        sums.shadow_difference.assign(n, {});
+        sums.shadow_mask.assign(n, 0);
         sums.nearest.assign(n, {});
         sums.nearest_rank.assign(n, kInfinity);
     }
@@ -125,6 +128,9 @@ void Film::add_data(ViewSums& sums, std::size_t pixel, const FirstHit& f, double
     for (std::size_t i = 0; i < values.size(); ++i)
         sums.data[pixel][i] += double{values[i]} * weight;
     add_to(sums.opacity[pixel], f.opacity, weight);
+    add_to(sums.shadow[pixel], f.shadow.by_channel, weight);
+    add_to(sums.shadow_difference[pixel], f.shadow.difference, weight);
+    sums.shadow_mask[pixel] += double{f.shadow.mask} * weight;
     // Ids cannot be averaged: the nearest sample's stands for the pixel.
     if (f.depth < sums.nearest_rank[pixel]) {
         sums.nearest_rank[pixel] = f.depth;
@@ -201,11 +207,20 @@ void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer,
         const auto value = [&](std::size_t index, float nearest) {
             return sums.closest ? nearest : static_cast<float>(sums.data[i][index] * norm);
         };
-        const auto opacity = [&](std::size_t c) {
-            return sums.closest ? f.opacity[static_cast<int>(c)]
-                                : static_cast<float>(sums.opacity[i][c] * norm);
-        };
         float* at = &out[i * channels];
+        /// A colour: the nearest sample's, or the filtered one; of one channel its mean.
+        const auto put_color = [&](Color nearest, const std::vector<Sum>& filtered) {
+            Color color = nearest;
+            if (!sums.closest)
+                for (int c = 0; c < 3; ++c)
+                    color[c] = static_cast<float>(filtered[i][static_cast<std::size_t>(c)] * norm);
+            if (channels == 1) {
+                at[0] = average(color);
+            } else {
+                for (std::size_t c = 0; c < 3; ++c)
+                    at[c] = color[static_cast<int>(c)];
+            }
+        };
         switch (layer.source) {
             case LayerSource::Depth: at[0] = value(0, f.depth); break;
             case LayerSource::Normal:
@@ -221,13 +236,15 @@ void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer,
                 at[1] = value(8, f.uv.y);
                 break;
             case LayerSource::Alpha: at[0] = static_cast<float>(sums.alpha[i] * norm); break;
-            case LayerSource::Opacity:
-                if (channels == 1) {
-                    at[0] = (opacity(0) + opacity(1) + opacity(2)) / 3;
-                } else {
-                    for (std::size_t c = 0; c < 3; ++c)
-                        at[c] = opacity(c);
-                }
+            case LayerSource::Opacity: put_color(f.opacity, sums.opacity); break;
+            case LayerSource::Shadow: put_color(f.shadow.by_channel, sums.shadow); break;
+            case LayerSource::ShadowDifference:
+                put_color(f.shadow.difference, sums.shadow_difference);
+                break;
+            case LayerSource::ShadowMask:
+                for (std::size_t c = 0; c < std::min<std::size_t>(channels, 3); ++c)
+                    at[c] = sums.closest ? f.shadow.mask
+                                         : static_cast<float>(sums.shadow_mask[i] * norm);
                 break;
             case LayerSource::Id: at[0] = std::bit_cast<float>(f.id); break;
             case LayerSource::Beauty:

@@ -16,6 +16,13 @@
 
 namespace lightsieve {
 
+/// What the shadow on a shadow_matte does.
+struct ShadowShown {
+    float mask = 0;    ///< 0: no shadow, 1: no light
+    Color by_channel;  ///< the same, a channel each
+    Color difference;  ///< diffuse light without the shadow, less that with it
+};
+
 /// What the camera ray met first; for layers that are no light.
 struct FirstHit {
     bool hit = false;
@@ -24,6 +31,7 @@ struct FirstHit {
     Vec2f uv;
     std::uint32_t id = 0;
     Color opacity;
+    ShadowShown shadow;
 };
 
 /// One camera sample's contributions.
@@ -79,7 +87,8 @@ class Film {
         std::size_t n_slots = 0;
         /// Data layers: means under a filter, or the nearest sample.
         std::vector<std::array<double, 9>> data;  ///< depth, normal, position, uv
-        std::vector<Sum> opacity;
+        std::vector<Sum> opacity, shadow, shadow_difference;
+        std::vector<double> shadow_mask;
         std::vector<FirstHit> nearest;
         std::vector<float> nearest_rank;  ///< the smaller the nearer
         bool closest = false;

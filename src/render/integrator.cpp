@@ -112,6 +112,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         counts.dropped_closures += closures_.n_dropped();
         absorb(surface);
         if (pass_hidden_surface(surface, ray)) continue;
+        if (closures_.shadow_matte() != nullptr) add_shadow_matte(surface, ray);
         if (seen()) note_first_hit(surface, camera_from_world);
         if (!lights_only_) {
             add_emission();
@@ -310,6 +311,7 @@ void Integrator<Tracker>::add_met_light(std::uint32_t index, const LightEval& ev
         arriving *= visibility_along(shadow, nullptr).straight;
     }
     const auto brought = [&](std::size_t g) {
+        if (!groups_.direct_light(g)) return kBlack;
         return arriving * light_factor(light.common, groups_[g].key.ray_type, n_scatter_);
     };
     // A skydome that is seen, be it through glass, is background.
@@ -356,7 +358,7 @@ template <class Tracker>
 void Integrator<Tracker>::add_escape(const Ray& ray) {
     float alpha = by_shadow_rays() ? 0 : add_infinite_lights(ray);
     if (scene_.background != nullptr && !lights_only_) {
-        const Color radiance = background_along(ray);
+        const auto [radiance, opaque] = background_along(ray);
         const auto visible = [&](std::size_t g) {
             return (scene_.background_visibility & bit_of(groups_[g])) != 0 &&
                    !groups_[g].key.lights_only;
@@ -365,7 +367,7 @@ void Integrator<Tracker>::add_escape(const Ray& ray) {
             {scene_.background_record.terminal, scene_.background_record.event},
             [&](std::size_t g) { return visible(g) ? radiance * groups_.indirect(g) : kBlack; });
         for (std::size_t g = 0; g < groups_.all().size(); ++g)
-            if (groups_[g].key.seen && visible(g)) alpha = 1;
+            if (groups_[g].key.seen && visible(g)) alpha = std::max(alpha, unit(opaque));
     }
     if (seen()) out_->alpha += average(passed_) * alpha;
 }
@@ -375,7 +377,7 @@ template <class Tracker>
 void Integrator<Tracker>::add_exit_background(const Ray& ray) {
     exit_pending_ = false;
     if (scene_.background == nullptr) return;
-    const Color radiance = background_along(ray);
+    const Color radiance = background_along(ray).rgb;
     deposit(
         {scene_.background_record.terminal, scene_.background_record.event}, [&](std::size_t g) {
             return groups_[g].key.exits && (scene_.background_visibility & bit_of(groups_[g])) != 0
@@ -384,15 +386,18 @@ void Integrator<Tracker>::add_exit_background(const Ray& ray) {
         });
 }
 
+/// Behind the picture, the background fills the frame; around the scene, as things reflect it, it is a map of latitude and
+/// longitude. (Seen on reference pictures test_0098 and test_0103.)
 template <class Tracker>
-Color Integrator<Tracker>::background_along(const Ray& ray) const {
+ShaderValue Integrator<Tracker>::background_along(const Ray& ray) const {
     ShadePoint at;
     at.direction = ray.direction;
     at.wo = -ray.direction;
     at.ray_type = groups_[0].key.ray_type;
     at.uv = {0.5F - std::atan2(ray.direction.x, ray.direction.z) * (0.5F * kInvPi),
              0.5F + std::asin(std::clamp(ray.direction.y, -1.0F, 1.0F)) * kInvPi};
-    return scene_.background->value(at).rgb;
+    if (n_scatter_ == 0) at.uv = {film.x, 1 - film.y};
+    return scene_.background->value(at);
 }
 
 /// What the body that the path is inside of took away on the way to the surface. Seen from inside, a surface says itself
@@ -448,6 +453,33 @@ void Integrator<Tracker>::go_straight(const Surface& surface, Ray& ray) const {
     ray.t_min = 0;
 }
 
+/// What a shadow_matte shows: what lies behind it, and the shadow over that.
+template <class Tracker>
+void Integrator<Tracker>::add_shadow_matte(const Surface& surface, const Ray& ray) {
+    const ShadowMatte& matte = *closures_.shadow_matte();
+    shadow_ = shadow_on(surface, matte);
+    if (matte.alpha_is_mask) closures_.matte(Color::grey(1 - shadow_.mask));
+    const float covered = unit(shadow_.mask * matte.opacity), left = 1 - covered;
+    const auto show = [&](const LobeRecord& record, Color radiance) {
+        deposit({record.terminal, record.event}, [&](std::size_t g) {
+            return groups_[g].key.lights_only ? kBlack : radiance * groups_.indirect(g);
+        });
+    };
+    show(*matte.shadow_record, matte.shadow_color * covered);
+    if (!matte.sees_background) return show(*matte.background_record, matte.background * left);
+    if (scene_.background != nullptr)
+        show(scene_.background_record, background_along(ray).rgb * left);
+    // Skydomes as the camera sees them. What other rays see of them would be a light that light samples know nothing of.
+    if (n_scatter_ > 0) return;
+    for (const std::uint32_t index : scene_.infinite_lights) {
+        const SceneLight& light = scene_.lights[index];
+        if (!light.is_skydome) continue;
+        const Color radiance = light.light->escape(ray.direction).radiance * light.common.camera;
+        deposit({light.as_background, light.background_event},
+                [&](std::size_t) { return radiance * left; });
+    }
+}
+
 template <class Tracker>
 bool Integrator<Tracker>::some_group_is_seen() const {
     const std::span<const PathGroup> groups = groups_.all();
@@ -482,7 +514,8 @@ void Integrator<Tracker>::gather_channels(const Surface& surface) {
         all_delta_ = all_delta_ && closures_.delta(i);
         transmissive_ |=
             closures[i].record->kind == EventKind::Transmission || has_no_sides(closures[i].model);
-        put(i, {closures[i].record, closures[i].caustics, closures[i].indirect});
+        put(i, {closures[i].record, closures[i].caustics, closures[i].indirect,
+                closures[i].direct_light});
     }
     for (std::size_t i = closures.size(); i < n_scatterers(); ++i) {
         const SubsurfaceClosure& below = closures_.subsurfaces()[i - closures.size()];
@@ -559,7 +592,8 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
     const Color to_diffuse = to_specular + arriving * (visible.tinted - visible.straight);
     deposit_scattered_light(light, [&](std::size_t g, std::size_t c) {
         const GroupKey& key = groups_[g].key;
-        if (key.lights_only || !channel_allowed(key, channels_[c])) return kBlack;
+        if (key.lights_only || !channel_allowed(key, channels_[c]) || !channels_[c].direct_light)
+            return kBlack;
         const LobeRecord& record = *channels_[c].record;
         const Color incident = record.lobe == EventLobe::Specular ? to_specular : to_diffuse;
         return value[c] * incident *
@@ -577,7 +611,9 @@ float Integrator<Tracker>::low_light_survival(std::span<const Color> by_channel,
     Color brought;
     for (const PathGroup& group : groups_.all())
         for (std::size_t c = 0; c < n_channels_; ++c) {
-            if (group.key.lights_only || !channel_allowed(group.key, channels_[c])) continue;
+            if (group.key.lights_only || !channel_allowed(group.key, channels_[c]) ||
+                !channels_[c].direct_light)
+                continue;
             const LobeRecord& record = *channels_[c].record;
             brought += group.throughput * by_channel[c] * incident *
                        light_factor(light.common,
@@ -679,6 +715,7 @@ void Integrator<Tracker>::add_light_at_exit(const WalkExit& exit) {
     const Terminal terminal = background ? Terminal{light.as_background, light.background_event}
                                          : Terminal{light.as_light, light.light_event};
     deposit(terminal, [&](std::size_t g) {
+        if (!groups_.direct_light(g)) return kBlack;
         return arriving * light_factor(light.common, groups_[g].key.ray_type, n_scatter_);
     });
 }

@@ -43,6 +43,7 @@ class Integrator {
     void trace(const CameraRay& camera_ray, float time, const Mat4f& camera_from_world,
                const Sampler& sampler, SampleBuffer& out);
 
+    Vec2f film;  ///< place of the sample in the frame, see CameraSample; set before `trace`
     TraceCounts counts;
     [[nodiscard]] Tracker& tracker() { return tracker_; }
 
@@ -81,7 +82,7 @@ class Integrator {
     void add_escape(const Ray& ray);
     float add_infinite_lights(const Ray& ray);
     void add_exit_background(const Ray& ray);
-    [[nodiscard]] Color background_along(const Ray& ray) const;
+    [[nodiscard]] ShaderValue background_along(const Ray& ray) const;
     /// What shaders must know of the path.
     void tell_path(ShadePoint& at, const Interiors& inside, const ShaderProgram* shader) const;
     void go_straight(const Surface& surface, Ray& ray) const;
@@ -91,6 +92,8 @@ class Integrator {
     /// A body's surface inside of a body that wins: the ray goes on as if there were nothing. False if the surface is there.
     bool pass_hidden_surface(const Surface& surface, Ray& ray);
     void note_first_hit(const Surface& surface, const Mat4f& camera_from_world);
+    void add_shadow_matte(const Surface& surface, const Ray& ray);
+    [[nodiscard]] ShadowShown shadow_on(const Surface& surface, const ShadowMatte& matte);
     void note_behind(const Surface& surface, const Mat4f& camera_from_world);
     void add_emission();
     void gather_channels(const Surface& surface);
@@ -171,6 +174,7 @@ class Integrator {
     int n_scatter_ = 0;         ///< scattering events so far
     int n_transparent_ = 0;     ///< transparent surfaces passed
     bool knows_first_ = false;  ///< what data layers show has been decided
+    ShadowShown shadow_;        ///< of the current vertex, where it has a shadow_matte
     bool exit_pending_ =
         false;  ///< the ray just left a surface past a depth limit with exit_to_background
     bool lights_only_ = false;  ///< no share of the path may meet anything but lights

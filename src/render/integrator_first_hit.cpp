@@ -14,8 +14,15 @@ FirstHit data_of(const Surface& surface, Color opacity, const Mat4f& camera_from
             surface.at.position,
             surface.at.uv,
             surface.object->id,
-            opacity};
+            opacity,
+            {}};
 }
+
+/// Light samples that decide about a shadow. A ratio of means of few samples is a little biased toward no shadow.
+constexpr std::uint32_t kShadowSamples = 16;
+/// Streams of random numbers of theirs, apart from those of the path.
+constexpr std::uint32_t kShadowStream = 1U << 12U;
+constexpr float kBelowOne = 0x1.fffffep-1F;
 
 /// The first lobe whose light is seen past the surface, or nothing.
 std::optional<std::size_t> see_through_lobe(const ClosureSet& closures) {
@@ -38,10 +45,12 @@ void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& ca
     out_->alpha += average(passed_ * clamp(opacity - closures_.matte() - past, 0, 1));
     if (knows_first_ || is_black(opacity)) return;
     knows_first_ = true;
-    if (is_black(past))
+    if (is_black(past)) {
         out_->first = data_of(surface, opacity, camera_from_world);
-    else
+        if (closures_.shadow_matte() != nullptr) out_->first.shadow = shadow_;
+    } else {
         note_behind(surface, camera_from_world);
+    }
 }
 
 /// The data of what is seen past a surface with transmit_aovs. A way of its own: data must not depend on which lobe the
@@ -81,9 +90,46 @@ void Integrator<Tracker>::note_behind(const Surface& front, const Mat4f& camera_
     }
 }
 
+/// How much light the things around keep from a shadow_matte: light samples with and without what hides them.
+template <class Tracker>
+ShadowShown Integrator<Tracker>::shadow_on(const Surface& surface, const ShadowMatte& matte) {
+    const LightSampler* lights = surface.object->lights;
+    const Vec3f normal = matte.backlighting > 0 ? Vec3f{0, 0, 0} : surface.outward;
+    Color all, arriving;
+    for (std::uint32_t i = 0; i < kShadowSamples; ++i) {
+        const auto number = [&](std::uint32_t stream) {
+            return random(kShadowStream + 4 * i + stream);
+        };
+        // Strata along the pick: with few lights each gets its share of the samples.
+        const float u = (static_cast<float>(i) + number(0)) / kShadowSamples;
+        const LightPick pick = lights->pick(surface.at.position, normal, std::min(u, kBelowOne));
+        if (!(pick.probability > 0)) continue;
+        const SceneLight& light = scene_.lights[pick.light];
+        const LightSample sample =
+            light.light->sample(surface.at.position, {number(1), number(2)});
+        float cosine = dot(surface.at.normal, sample.wi);
+        if (cosine < 0) cosine *= -matte.backlighting;
+        if (!(sample.pdf > 0) || !(cosine > 0)) continue;
+        const Color brought =
+            sample.radiance *
+            (cosine * kInvPi / (pick.probability * sample.pdf * kShadowSamples) *
+             light_factor(light.common, RayType::DiffuseReflect, n_scatter_ + 1));
+        all += brought;
+        if (!is_black(brought))
+            arriving += brought * visibility(surface, pick.light, sample).tinted;
+    }
+    const auto missing = [](float with, float without) {
+        return without > 0 ? std::clamp(1 - with / without, 0.0F, 1.0F) : 0.0F;
+    };
+    return {missing(average(arriving), average(all)),
+            {missing(arriving.r, all.r), missing(arriving.g, all.g), missing(arriving.b, all.b)},
+            matte.diffuse * (all - arriving)};
+}
+
 #define LIGHTSIEVE_FIRST_HIT(Tracker)                                                \
     template void Integrator<Tracker>::note_first_hit(const Surface&, const Mat4f&); \
-    template void Integrator<Tracker>::note_behind(const Surface&, const Mat4f&);
+    template void Integrator<Tracker>::note_behind(const Surface&, const Mat4f&);    \
+    template ShadowShown Integrator<Tracker>::shadow_on(const Surface&, const ShadowMatte&);
 LIGHTSIEVE_FIRST_HIT(AovTracker)
 LIGHTSIEVE_FIRST_HIT(LogTracker)
 #undef LIGHTSIEVE_FIRST_HIT

@@ -66,7 +66,8 @@ struct alignas(8) GroupKey {
 struct Channel {
     const LobeRecord* record = nullptr;
     bool caustics = true;
-    float indirect = 1;  ///< factor on indirect light
+    float indirect = 1;        ///< factor on indirect light
+    bool direct_light = true;  ///< false: no light that comes from a light
 
     [[nodiscard]] bool matches(const Channel& other) const {
         const LobeRecord& a = *record;
@@ -74,7 +75,8 @@ struct Channel {
         return a.event == b.event && a.kind == b.kind && a.lobe == b.lobe &&
                a.subsurface == b.subsurface && a.exit_to_background == b.exit_to_background &&
                a.extra_depth == b.extra_depth && a.makes_no_event == b.makes_no_event &&
-               caustics == other.caustics && indirect == other.indirect;
+               caustics == other.caustics && indirect == other.indirect &&
+               direct_light == other.direct_light;
     }
 };
 
@@ -169,7 +171,13 @@ class PathGroups {
     [[nodiscard]] std::span<const PathGroup> all() const { return {groups_.data(), n_}; }
     [[nodiscard]] const PathGroup& operator[](std::size_t i) const { return groups_[i]; }
     /// Factor on what group `i` brings from anything but lights, and on all that it scatters.
-    [[nodiscard]] float indirect(std::size_t i) const { return factors_[groups_[i].key.indirect]; }
+    [[nodiscard]] float indirect(std::size_t i) const {
+        return factors_[groups_[i].key.indirect].indirect;
+    }
+    /// Whether lights that the ray of group `i` meets count.
+    [[nodiscard]] bool direct_light(std::size_t i) const {
+        return factors_[groups_[i].key.indirect].direct_light;
+    }
     [[nodiscard]] Color total() const {
         Color sum;
         for (std::size_t i = 0; i < n_; ++i)
@@ -200,16 +208,16 @@ class PathGroups {
     void scatter(std::span<const Channel> channels, std::span<const Color> factors,
                  const DepthRules& rules, const Random& random, Step& step) {
         std::array<PathGroup, kMaxCandidates>& candidates = candidates_;
-        const std::array<float, kMaxFactors> waiting = factors_;
+        const std::array<Waiting, kMaxFactors> waiting = factors_;
         std::array<std::uint8_t, kMaxChannels> factor_of;
         n_factors_ = 1;
         for (std::size_t c = 0; c < channels.size(); ++c)
-            factor_of[c] = factor_index(channels[c].indirect);
+            factor_of[c] = factor_index({channels[c].indirect, channels[c].direct_light});
         std::size_t n = 0;
         for (std::size_t g = 0; g < n_; ++g)
             for (std::size_t c = 0; c < channels.size(); ++c) {
                 step.to[g][c] = kNone;
-                const float scale = waiting[groups_[g].key.indirect];
+                const float scale = waiting[groups_[g].key.indirect].indirect;
                 step.scale[g][c] = scale;
                 if (groups_[g].key.lights_only || is_black(factors[c]) || scale == 0 ||
                     !channel_allowed(groups_[g].key, channels[c]))
@@ -240,9 +248,16 @@ class PathGroups {
     static constexpr std::size_t kMaxFactors = 32;
     static_assert(kMaxChannels < kMaxFactors);
 
-    std::uint8_t factor_index(float factor) {
+    /// What waits until the next ray has met something.
+    struct Waiting {
+        float indirect = 1;
+        bool direct_light = true;
+        friend bool operator==(const Waiting&, const Waiting&) = default;
+    };
+
+    std::uint8_t factor_index(Waiting factor) {
         std::size_t i = 0;
-        while (i < n_factors_ && factors_[i] != factor)
+        while (i < n_factors_ && !(factors_[i] == factor))
             ++i;
         if (i == n_factors_) factors_[n_factors_++] = factor;
         return static_cast<std::uint8_t>(i);
@@ -292,7 +307,8 @@ class PathGroups {
 
     std::array<PathGroup, kMaxGroups> groups_;
     std::size_t n_ = 0;
-    std::array<float, kMaxFactors> factors_{1};  ///< by GroupKey::indirect; the first is 1
+    std::array<Waiting, kMaxFactors>
+        factors_;  ///< by GroupKey::indirect; the first changes nothing
     std::size_t n_factors_ = 1;
     std::array<PathGroup, kMaxCandidates>
         candidates_;  ///< of `scatter`; kept, because clearing it costs more than using it

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <utility>
 
 #include "bsdf/closure.h"
 #include "nodes/common/node_test_support.h"
@@ -235,6 +236,43 @@ TEST(StandardSurface, LinkedNormalTiltsOnlyItsLayers) {
     node.set("normal", Vec3f{-1, 0, 0});
     const Color albedo = Shaded(node, hit(0.3)).total_albedo();
     EXPECT_TRUE(is_finite(albedo) && max_component(albedo) <= 1.002F);
+}
+
+TEST(StandardSurface, CoatHasItsOwnNormalAndAnisotropy) {
+    TestNode node(node_standard_surface());
+    node.set("coat", 1.0F).set("coat_roughness", 0.5F).set("coat_normal", Vec3f{1, 0, 2});
+    const Shaded tilted(node, hit(1));
+    EXPECT_NE(tilted.closure(kCoat).frame, 0);
+    EXPECT_EQ(tilted.closure(kSpecular).frame, 0);
+    EXPECT_EQ(tilted.closure(kDiffuse).frame, 0);
+    node.set("coat_normal", Vec3f{}).set("coat_anisotropy", 0.75F);
+    const auto across = [&](float rotation, Vec3f wi) {
+        node.set("coat_rotation", rotation);
+        const Shaded s(node, hit(1));
+        return s.set.eval(s.index.at(kCoat), wi).f.r;
+    };
+    const float z = std::sqrt(0.75F);
+    EXPECT_GT(across(0, {0.5F, 0, z}), 2 * across(0, {0, 0.5F, z}));
+    EXPECT_NEAR(across(0.25F, {0, 0.5F, z}), across(0, {0.5F, 0, z}), 1e-4F);
+    EXPECT_FALSE(std::get<DielectricReflect>(Shaded(node, hit(1)).closure(kSpecular).model)
+                     .alpha.stretch() > 0);
+}
+
+TEST(StandardSurface, ExtraRoughnessBlursTransmissionOnly) {
+    TestNode node(node_standard_surface());
+    node.set("transmission", 1.0F).set("specular_roughness", 0.3F);
+    const auto alphas = [&](float extra) {
+        node.set("transmission_extra_roughness", extra);
+        const Shaded s(node, hit(0.8));
+        return std::pair{std::get<DielectricReflect>(s.closure(kSpecular).model).alpha.x,
+                         std::get<DielectricTransmit>(s.closure(kTransmission).model).alpha.x};
+    };
+    for (const float extra : {-0.2F, 0.0F, 0.4F}) {
+        EXPECT_NEAR(alphas(extra).first, 0.09F, 1e-6F);
+        EXPECT_NEAR(alphas(extra).second, square(0.3F + extra), 1e-6F);
+    }
+    EXPECT_EQ(alphas(-1).second, 0);
+    EXPECT_EQ(alphas(1).second, 1);
 }
 
 TEST(StandardSurface, PrepareClearsNormalsThatAreOnlyWritten) {
