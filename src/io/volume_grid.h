@@ -36,19 +36,19 @@ class VolumeGrids {
     VolumeGrids& operator=(const VolumeGrids&) = delete;
     ~VolumeGrids();
 
-    /// What the file holds, in its order; names are distinct.
+    /// What was read: in the order asked for, or by name.
     [[nodiscard]] std::span<const Info> grids() const;
     /// Number of a grid, or -1.
     [[nodiscard]] int find(Name name) const;
     /// Bounds of all active voxels of all grids [object space]; empty if there are none.
     [[nodiscard]] Box3f bounds() const;
     /// Value at a point; scalars in all three channels; the grid's background outside, and where the point is not finite.
-    /// Closest and trilinear values lie between those of the voxels around; tricubic ones can overshoot, also below 0.
+    /// Values lie between those of the voxels around: tricubic interpolation is kept from overshooting.
     [[nodiscard]] Color sample(int grid, Vec3f object_position,
                                VolumeInterpolation interpolation) const noexcept;
-    /// Not less than any value (of each component) that `sample` can return in the box; for tricubic interpolation, which
-    /// overshoots, not less than the values of the voxels that it blends. Takes cells of 8^3 voxels, whose maxima are made at
-    /// load, so it is loose in small boxes; the whole grid's maximum where the box covers very many of them.
+    /// Not less than any value (of each component) that `sample` can return in the box, at any interpolation; for a box that
+    /// is not finite or is empty, in all of space. Taken from the maxima of cells of 8^3 voxels (larger ones in grids that are
+    /// nearly empty, or under large boxes), so it may be larger than the values; at most 64 cells are visited.
     [[nodiscard]] Color maximum(int grid, const Box3f& object_box) const noexcept;
     /// Memory of grids and bounds [bytes].
     [[nodiscard]] std::size_t memory() const;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -16,7 +17,9 @@ BUILD = ROOT / "build/sanitize"
 SCENES = sorted([*(ROOT / "tests/broken").glob("*.ass"), *(ROOT / "tests/scenes").glob("*.ass")])
 
 
-def run(*command: str | Path, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
+def run(
+    *command: str | Path, cwd: Path = ROOT, environment: Mapping[str, str] = os.environ
+) -> subprocess.CompletedProcess[str]:
     options = {
         # What libraries keep until the end of the process is not for us to free.
         "detect_leaks": 0,
@@ -27,11 +30,10 @@ def run(*command: str | Path, cwd: Path = ROOT) -> subprocess.CompletedProcess[s
         "exitcode": 99,
     }
     setting = ":".join(f"{key}={value}" for key, value in options.items())
-    environment = {**os.environ, "ASAN_OPTIONS": setting, "UBSAN_OPTIONS": "print_stacktrace=1"}
     return subprocess.run(
         [str(part) for part in command],
         cwd=cwd,
-        env=environment,
+        env={**environment, "ASAN_OPTIONS": setting, "UBSAN_OPTIONS": "print_stacktrace=1"},
         capture_output=True,
         text=True,
         check=False,
@@ -51,6 +53,13 @@ def build() -> Path:
 
 def test_unit_tests(build: Path) -> None:
     done = run("ctest", "--test-dir", build, "--output-on-failure")
+    assert done.returncode == 0, done.stdout[-8000:]
+
+
+def test_damaged_volumes(build: Path) -> None:
+    """A thousand flipped bits, in files and in what the reader says of one."""
+    environment = {**os.environ, "LIGHTSIEVE_DAMAGE_ROUNDS": "20"}
+    done = run(build / "src/io_test", "--gtest_filter=Damage.*", environment=environment)
     assert done.returncode == 0, done.stdout[-8000:]
 
 
