@@ -2,10 +2,10 @@
 //
 //   cmake --build build/release --target make_smoke && build/release/src/make_smoke scenes/smoke.vdb
 //
-// A column of 64 x 128 x 64 voxels, two units high, that stands on y = 0 and has its axis at x = z = 0. The column widens as it rises and
-// swirls around its axis; sums of noise of four sizes bend the place of every look-up, so that puffs curl, and eat into its
-// edge. Density thins with height. Temperature is one at the hottest, in a core at the base that tongues of flame leave.
-// The colour is what a dye in the smoke would look like: warm grey below, bluish grey above.
+// A column of 64 x 128 x 64 voxels, two units high, that stands on y = 0 and has its axis at x = z = 0. It widens as it
+// rises and swirls around its axis; sums of noise of four sizes bend the place of every look-up, so that puffs curl, and
+// eat into its edge. Density thins with height. Temperature is one at the hottest, in a core at the base that tongues of
+// flame leave. The colour is what a dye in the smoke would look like: warm grey below, bluish grey above.
 //
 // Noise is trilinear between hashed lattice points: no random numbers, so that every machine writes the same values.
 // Values are kept as halves and what is next to nothing is left out, for a small file.
@@ -114,12 +114,12 @@ Smoke smoke_at(Point p) {
     // The column: a narrow foot, a waist, and a head that is round at the top.
     const float rise = std::clamp(q.y / 2, 0.0F, 1.0F);
     const float radius = (0.10F + 0.30F * smooth(0, 0.95F, rise)) *
-                         std::sqrt(std::max(0.0F, 1 - smooth(0.72F, 1.02F, rise)));
+                         std::sqrt(std::max(0.0F, 1 - smooth(0.62F, 0.93F, rise)));
     const float from_axis = std::sqrt(q.x * q.x + q.z * q.z);
-    const float body = radius - from_axis + 0.22F * (0.3F + rise) * small.x;
+    const float body = radius - from_axis + 0.36F * (0.25F + rise) * small.x;
     const float foot = smooth(0.0F, 0.08F, p.y);
     const float density =
-        foot * smooth(0.0F, 0.12F, body) * mix(1.0F, 0.45F, rise) * (0.75F + 0.5F * small.z);
+        foot * smooth(0.0F, 0.10F, body) * mix(1.0F, 0.45F, rise) * (0.75F + 0.5F * small.z);
 
     // The core: thin, at the base, torn upward by the small noise.
     const float flame = 0.085F * (1 - rise / 0.42F) - from_axis + 0.10F * small.y * (0.4F + rise);
