@@ -22,8 +22,9 @@ Color valid_weight(Color c) {
 
 void ClosureSet::begin(Vec3f wo, const Frame& shading) {
     wo_ = wo;
-    n_ = n_subsurfaces_ = n_emissions_ = n_frames_ = 0;
+    n_ = n_subsurfaces_ = n_emissions_ = n_frames_ = n_media_ = 0;
     n_dropped_ = 0;
+    in_volume_ = false;
     scale_ = kWhite;
     transparency_ = shadow_transmission_ = matte_ = kBlack;
     indirect_ = {};
@@ -32,6 +33,11 @@ void ClosureSet::begin(Vec3f wo, const Frame& shading) {
     shadow_matte_.background_record = nullptr;
     records_ = {};
     add_frame(shading);
+}
+
+void ClosureSet::begin_volume(Vec3f wo) {
+    begin(wo, Frame::from_z(wo));
+    in_volume_ = true;
 }
 
 std::uint8_t ClosureSet::add_frame(const Frame& frame) {
@@ -94,6 +100,40 @@ void ClosureSet::emit(int lobe, Color radiance) {
         return;
     }
     emissions_[n_emissions_++] = {total, &record(lobe)};
+}
+
+Medium ClosureSet::medium(int lobe, Color extinction, Color scattering,
+                          const Phase& phase) const {
+    return {valid_weight(extinction), lobe < 0 ? kBlack : valid_weight(scattering), phase,
+            lobe < 0 ? nullptr : &record(lobe)};
+}
+
+void ClosureSet::add_haze(int lobe, Color extinction, Color scattering, const Phase& phase) {
+    if (!in_volume_) {
+        const std::array both{interior_.medium, medium(lobe, extinction, scattering, phase)};
+        interior_.medium = mixed(both);
+        interior_.is_body = true;
+        return;
+    }
+    const Medium one = medium(lobe, scale_ * extinction, scale_ * scattering, phase);
+    if (is_black(one.extinction) && !one.scatters()) return;
+    if (n_media_ == kMaxMedia) {
+        ++n_dropped_;
+        return;
+    }
+    media_[n_media_++] = one;
+}
+
+void ClosureSet::scatter_in(const Medium& medium, Color weight) {
+    if (!is_finite(weight) || is_black(weight) || n_ == kMaxClosures) return;
+    closures_[n_++] = {PhaseLobe(medium.phase), weight, medium.record, 0, true};
+}
+
+Color ClosureSet::extinction() const {
+    Color sum;
+    for (const Medium& medium : media())
+        sum += medium.extinction;
+    return sum;
 }
 
 LobeEval ClosureSet::eval(std::size_t i, Vec3f wi) const noexcept {

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "bsdf/lobe.h"
+#include "bsdf/medium.h"
 #include "bsdf/models.h"
 #include "bsdf/subsurface.h"
 #include "core/event.h"
@@ -62,7 +63,7 @@ struct SubsurfaceClosure {
 
 /// What lies behind the surface of a clear body.
 struct Interior {
-    Color absorption;      ///< coefficient [1/scene unit]
+    Medium medium;         ///< what it is filled with
     float ior = 1;         ///< index of refraction, for the path's wavelength if it has one
     int priority = 0;      ///< where bodies overlap the higher one is there
     bool is_body = false;  ///< false: the surface has no inside
@@ -94,10 +95,13 @@ class ClosureSet {
     static constexpr std::size_t kMaxSubsurfaces = 4;
     static constexpr std::size_t kMaxFrames = 6;
     static constexpr std::size_t kMaxEmissions = 6;
+    static constexpr std::size_t kMaxMedia = 4;
 
     /// Starts a hit: z of `shading` is the shading normal on the side of the surface that `wo` leaves from. It may lean away
     /// from `wo` itself (interpolated normals near a silhouette): lobes then see `wo` at the horizon.
     void begin(Vec3f wo, const Frame& shading);
+    /// Starts a point in a volume, seen along -wo: media and emission (a unit of length each) are what counts there.
+    void begin_volume(Vec3f wo);
 
     // For shaders ----------------------------------------------------------------------------------------------
     /// Lobes of the shader instance that adds from now on; set by whoever calls the shader.
@@ -128,14 +132,26 @@ class ClosureSet {
     /// casts tinted shadows instead of focusing light. Makes no event, as opacity.
     void transmit_shadow(Color weight) { shadow_transmission_ += scale_ * weight; }
     /// The surface is that of a clear body. The last call counts.
-    void set_interior(Interior interior) {
+    void set_interior(const Interior& interior) {
         interior_ = interior;
         interior_.is_body = true;
     }
+    /// A medium as this set takes it: what is negative or not finite becomes 0.
+    ///
+    /// lobe  of the scattering event, or -1 if the medium only absorbs
+    [[nodiscard]] Medium medium(int lobe, Color extinction, Color scattering,
+                                const Phase& phase) const;
     /// What the set transmits on the far side bends by wavelength: ShadePoint::wavelength was used.
     void disperse() { disperses_ = true; }
     /// The surface shows shadows; lobes number `background` and `shadow` of the shader make its events. The last call counts.
     void show_shadows(int background, int shadow, ShadowMatte matte);
+    /// Adds a medium: at a point in a volume, what is there; at a surface, what the body behind it is filled with. In a
+    /// volume it is scaled as all else is; a body's inside does not depend on how much of its surface a layer hides.
+    void add_medium(int lobe, Color absorption, Color scattering, const Phase& phase = {}) {
+        add_haze(lobe, absorption + scattering, scattering, phase);
+    }
+    /// The same where what is lost and what is scattered are given independently.
+    void add_haze(int lobe, Color extinction, Color scattering, const Phase& phase);
     /// The hit is a hole in the picture: black, and alpha is reduced by this.
     void matte(Color weight) { matte_ += scale_ * weight; }
 
@@ -156,6 +172,12 @@ class ClosureSet {
     [[nodiscard]] const ShadowMatte* shadow_matte() const {
         return shadow_matte_.background_record == nullptr ? nullptr : &shadow_matte_;
     }
+    /// At a point in a volume.
+    [[nodiscard]] std::span<const Medium> media() const { return {media_.data(), n_media_}; }
+    /// Makes the light scatter in a medium: adds its phase function.
+    void scatter_in(const Medium& medium, Color weight);
+    /// Extinction of a volume's media together [1/scene unit].
+    [[nodiscard]] Color extinction() const;
     /// Closures that did not fit; counted by the renderer, reported at the end.
     [[nodiscard]] std::uint32_t n_dropped() const { return n_dropped_; }
 
@@ -179,7 +201,9 @@ class ClosureSet {
     std::array<Emission, kMaxEmissions> emissions_;
     std::array<Frame, kMaxFrames> frames_;
     std::array<Vec3f, kMaxFrames> wo_local_;
-    std::size_t n_ = 0, n_subsurfaces_ = 0, n_emissions_ = 0, n_frames_ = 0;
+    std::array<Medium, kMaxMedia> media_;
+    std::size_t n_ = 0, n_subsurfaces_ = 0, n_emissions_ = 0, n_frames_ = 0, n_media_ = 0;
+    bool in_volume_ = false;
     std::uint32_t n_dropped_ = 0;
     std::span<const LobeRecord> records_;
     Color scale_{1, 1, 1}, transparency_, shadow_transmission_, matte_;

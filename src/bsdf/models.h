@@ -13,6 +13,7 @@
 #include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
 #include "bsdf/hair.h"
+#include "bsdf/phase.h"
 #include "bsdf/schlick.h"
 #include "bsdf/sheen.h"
 #include "bsdf/thin_film.h"
@@ -24,11 +25,11 @@ namespace lightsieve {
 using LobeModel =
     std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit,
                  ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect, FilmReflect,
-                 FilmedSchlickReflect, HairLobe, BurleyReflect>;
+                 FilmedSchlickReflect, HairLobe, BurleyReflect, PhaseLobe>;
 
-/// Lobes of fibres have no sides: light from behind the shading normal counts as much.
+/// Lobes of fibres and of volumes have no sides: light from behind the shading normal counts as much.
 [[nodiscard]] inline bool has_no_sides(const LobeModel& model) noexcept {
-    return std::holds_alternative<HairLobe>(model);
+    return std::holds_alternative<HairLobe>(model) || std::holds_alternative<PhaseLobe>(model);
 }
 
 /// std::visit, with a short way for the lobe that most surfaces have.

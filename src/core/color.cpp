@@ -167,6 +167,11 @@ ColorMatrix rgb_to_rgb(Primaries from, Primaries to) {
     return inverse(xyz_from_rgb(target)) * adaptation(source, target) * xyz_from_rgb(source);
 }
 
+ColorMatrix rgb_from_xyz(Primaries to) {
+    return rgb_to_rgb(Primaries::Rec709, to) *
+           inverse(xyz_from_rgb(chromaticities(Primaries::Rec709)));
+}
+
 float decode(Transfer transfer, float stored) {
     switch (transfer) {
         case Transfer::Linear: return stored;

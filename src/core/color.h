@@ -54,6 +54,8 @@ struct Chromaticities {
 using ColorMatrix = std::array<std::array<double, 3>, 3>;
 /// Linear RGB of one set of primaries to another; white maps to white (Bradford adaptation).
 [[nodiscard]] ColorMatrix rgb_to_rgb(Primaries from, Primaries to);
+/// CIE XYZ seen under daylight (D65) to linear RGB; daylight maps to white.
+[[nodiscard]] ColorMatrix rgb_from_xyz(Primaries to);
 
 /// Stored value to light. Odd around 0, defined for any float; NaN stays NaN.
 [[nodiscard]] float decode(Transfer transfer, float stored);

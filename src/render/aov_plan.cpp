@@ -20,12 +20,13 @@ struct DataAov {
 };
 
 /// AOVs that are no light path expressions, with the types that they can be written as.
-constexpr std::array<DataAov, 10> kDataAovs{{
+constexpr std::array<DataAov, 11> kDataAovs{{
     {"Z", LayerSource::Depth, {"FLOAT", "", ""}},
     {"N", LayerSource::Normal, {"VECTOR", "RGB", ""}},
     {"P", LayerSource::Position, {"VECTOR", "RGB", ""}},
     {"A", LayerSource::Alpha, {"FLOAT", "", ""}},
     {"opacity", LayerSource::Opacity, {"RGB", "FLOAT", ""}},
+    {"volume_opacity", LayerSource::VolumeOpacity, {"RGB", "FLOAT", ""}},
     {"ID", LayerSource::Id, {"UINT", "INT", ""}},
     {"uv", LayerSource::Uv, {"VECTOR2", "RGB", "VECTOR"}},
     {"shadow", LayerSource::Shadow, {"RGB", "FLOAT", ""}},

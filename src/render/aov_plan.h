@@ -32,6 +32,7 @@ enum class LayerSource : std::uint8_t {
     Position,          ///< P: world space
     Alpha,             ///< A
     Opacity,           ///< opacity of the first hit
+    VolumeOpacity,     ///< 1 - transmittance of media before surfaces
     Shadow,            ///< of shadow_matte: how much light is missing, a channel each
     ShadowDifference,  ///< of shadow_matte: the light that is missing
     ShadowMask,        ///< of shadow_matte: how much light is missing in all

@@ -37,6 +37,7 @@ ScenePtr Compiler::run() {
     make_lights();
     make_shapes();
     make_background();
+    make_atmosphere();
     gather_events();
     // Mistakes in expressions are forgiven if the scene says so: their AOVs are black (spec: abort_on_error).
     const std::size_t before = diagnostics_.n_errors();
@@ -54,6 +55,7 @@ ScenePtr Compiler::run() {
     finish_depth_rules();
     try {
         make_accels();
+        finish_volumes();
     } catch (const InputError& e) {
         for (const Error& error : e.errors())
             diagnostics_.add(error);
@@ -68,11 +70,6 @@ bool Compiler::has_caustics() const {
         const bool* caustics = node->template find<bool>("caustics");
         return caustics != nullptr && (*caustics || node->is_linked("caustics"));
     });
-}
-
-template <class T>
-T Compiler::option(Name param, T fallback) const {
-    return graph_.options() == nullptr ? fallback : graph_.options()->get<T>(param);
 }
 
 SourceSpan Compiler::option_place(Name param) const {

@@ -194,6 +194,7 @@ void Compiler::place_shape(const NodeInstance& node) {
     object.may_tint_shadows =
         std::any_of(object.shaders.begin(), object.shaders.end(),
                     [](const ShaderProgram* p) { return p->may_tint_shadows; });
+    if (add_volume(node, *source, object, own("step_size").step_size)) return;
     scene_->objects.push_back(std::move(object));
 }
 

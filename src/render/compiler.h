@@ -49,7 +49,9 @@ class Compiler {
     void summarize_scene();
     [[nodiscard]] bool has_caustics() const;
     template <class T>
-    [[nodiscard]] T option(Name param, T fallback) const;
+    [[nodiscard]] T option(Name param, T fallback) const {
+        return graph_.options() == nullptr ? fallback : graph_.options()->get<T>(param);
+    }
     [[nodiscard]] SourceSpan option_place(Name param) const;
 
     // compile_shaders.cpp
@@ -60,6 +62,7 @@ class Compiler {
     [[nodiscard]] static bool shader_may_disperse(const NodeInstance& node);
     const ShaderProgram* default_shader(const std::string& object_label);
     void make_background();
+    void make_atmosphere();
 
     // compile_shapes.cpp
     void make_shapes();
@@ -72,6 +75,10 @@ class Compiler {
     void add_surface_shader(const ShaderProgram* program);
     [[nodiscard]] const LightSampler* lights_of(const NodeInstance& node);
     [[nodiscard]] std::vector<bool> shadow_lights_of(const NodeInstance& node);
+    /// If the shape holds a volume, makes it one.
+    bool add_volume(const NodeInstance& node, const NodeInstance& source, SceneObject& object,
+                    float step_size);
+    void check_channels(const NodeInstance& node, const SceneVolume& volume);
     void resample_motion(ShapeGeometry& geometry, MotionRange range) const;
 
     // compile_lights.cpp
@@ -92,6 +99,7 @@ class Compiler {
 
     // compile_accel.cpp
     void make_accels();
+    void finish_volumes();
     void find_mask_types();
 
     const SceneGraph& graph_;

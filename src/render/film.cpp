@@ -47,6 +47,7 @@ void Film::begin(const Pass& pass, int width, int height) {
         sums.shadow.assign(n, {});
         sums.shadow_difference.assign(n, {});
         sums.shadow_mask.assign(n, 0);
+        sums.volume_opacity.assign(n, {});
         sums.nearest.assign(n, {});
         sums.nearest_rank.assign(n, kInfinity);
     }
@@ -121,6 +122,7 @@ void Film::add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer&
 }
 
 void Film::add_data(ViewSums& sums, std::size_t pixel, const FirstHit& f, double weight) {
+    add_to(sums.volume_opacity[pixel], f.volume_opacity, weight);
     if (!f.hit) return;
     const std::array<float, 9> values{f.depth,      f.normal.x,   f.normal.y,
                                       f.normal.z,   f.position.x, f.position.y,
@@ -237,6 +239,9 @@ void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer,
                 break;
             case LayerSource::Alpha: at[0] = static_cast<float>(sums.alpha[i] * norm); break;
             case LayerSource::Opacity: put_color(f.opacity, sums.opacity); break;
+            case LayerSource::VolumeOpacity:
+                put_color(f.volume_opacity, sums.volume_opacity);
+                break;
             case LayerSource::Shadow: put_color(f.shadow.by_channel, sums.shadow); break;
             case LayerSource::ShadowDifference:
                 put_color(f.shadow.difference, sums.shadow_difference);

@@ -32,6 +32,8 @@ struct FirstHit {
     std::uint32_t id = 0;
     Color opacity;
     ShadowShown shadow;
+    /// What media hide of everything behind them; also where nothing was hit.
+    Color volume_opacity;
 };
 
 /// One camera sample's contributions.
@@ -87,7 +89,7 @@ class Film {
         std::size_t n_slots = 0;
         /// Data layers: means under a filter, or the nearest sample.
         std::vector<std::array<double, 9>> data;  ///< depth, normal, position, uv
-        std::vector<Sum> opacity, shadow, shadow_difference;
+        std::vector<Sum> opacity, volume_opacity, shadow, shadow_difference;
         std::vector<double> shadow_mask;
         std::vector<FirstHit> nearest;
         std::vector<float> nearest_rank;  ///< the smaller the nearer

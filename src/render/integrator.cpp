@@ -6,6 +6,7 @@
 
 #include "core/sampling.h"
 #include "render/faults.h"
+#include "render/integrator_deposit.h"
 #include "render/path_log.h"
 
 namespace lightsieve {
@@ -70,6 +71,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         scene_.disperses ? sample_wavelength(sampler.at2x4(0)[kWavelengthPair].x) : Wavelength{};
     monochromatic_ = knows_first_ = false;
     n_scatter_ = n_transparent_ = 0;
+    n_shadow_rays_ = 0;
     exit_pending_ = false;
     Ray ray{camera_ray.origin, camera_ray.direction, camera_ray.t_min, camera_ray.t_max, time};
 
@@ -82,44 +84,35 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         RayHit hit;
         ++counts.rays;
         const bool met = scene_.accel->intersect(ray, ray_mask(), hit);
-        if (!by_shadow_rays()) {
-            if (scene_.light_accel && add_area_lights(ray, met ? hit.t : ray.t_max)) return;
-        } else if (segment_ == last_.next_segment) {
-            if (scene_.light_accel) add_area_lights(ray, ray.t_max);
+        begin_media(ray, met ? hit.t : ray.t_max);
+        if (by_shadow_rays() && segment_ == last_.next_segment) {
+            if (scene_.light_accel) (void)add_area_lights(ray, ray.t_max);
             add_infinite_lights(ray);
         }
 
-        // A ray that leaves the scene brings infinite lights and the background.
-        if (!met) return add_escape(ray);
-        const SceneObject& object = scene_.objects[hit.object];
-        if (lights_only_ && !object.may_be_transparent) return;
-
-        // Surfaces may have one side only, or be holes in the picture.
-        Surface surface = make_surface(object, ray, hit, footprint_);
-        const RayType ray_type = groups_[0].key.ray_type;
-        surface.at.ray_type = ray_type;
-        const bool from_camera = ray_type == RayType::Camera;
-        if (!surface.at.entering && (object.sidedness & ray_bit(ray_type)) == 0) {
-            go_straight(surface, ray);
-            continue;
+        // The next vertex: on a surface, or before it in a medium. A ray that leaves the scene brings infinite lights and
+        // the background.
+        const Passage passage = pass(ray, met ? hit.t : ray.t_max);
+        if (passage == Passage::Ended) return;
+        Surface surface;
+        if (passage == Passage::Scattered) {
+            surface = medium_vertex_;
+        } else {
+            if (!met) return add_escape(ray);
+            const SceneObject& object = scene_.objects[hit.object];
+            if (lights_only_ && !object.may_be_transparent) return;
+            surface = make_surface(object, ray, hit, footprint_);
+            surface.at.ray_type = groups_[0].key.ray_type;
+            const Arrival arrival = arrive(surface, ray, camera_from_world);
+            if (arrival == Arrival::Ended) return;
+            if (arrival == Arrival::Passed) continue;
         }
-        if (object.matte && from_camera) return;
 
-        // Run the shader.
-        tell_path(surface.at, interiors_, surface.shader);
-        closures_.begin(surface.at.wo, surface.frame);
-        surface.shader->closures(surface.at, closures_);
-        counts.dropped_closures += closures_.n_dropped();
-        absorb(surface);
-        if (pass_hidden_surface(surface, ray)) continue;
-        if (closures_.shadow_matte() != nullptr) add_shadow_matte(surface, ray);
-        if (seen()) note_first_hit(surface, camera_from_world);
+        // What may happen to light here, by event.
+        n_channels_ = 0;
         if (!lights_only_) {
-            add_emission();
             gather_channels(surface);
             if (scene_.plan.wants_probes && tracker_.live_probe()) add_probes();
-        } else {
-            n_channels_ = 0;
         }
 
         // Direct light, value by lobe; then a direction from the mixture, and every share splits over the lobes.
@@ -130,6 +123,35 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         if (n_channels_ > 0 && !all_delta_) add_light_samples(surface);
         if (!scatter(surface, ray)) return;
     }
+}
+
+template <class Tracker>
+auto Integrator<Tracker>::arrive(Surface& surface, Ray& ray, const Mat4f& camera_from_world)
+    -> Arrival {
+    // Surfaces may have one side only, or be holes in the picture.
+    const SceneObject& object = *surface.object;
+    if (!surface.at.entering && (object.sidedness & ray_bit(surface.at.ray_type)) == 0) {
+        go_straight(surface, ray);
+        return Arrival::Passed;
+    }
+    if (object.matte && surface.at.ray_type == RayType::Camera) return Arrival::Ended;
+    tell_path(surface.at, interiors_, surface.shader);
+    closures_.begin(surface.at.wo, surface.frame);
+    surface.shader->closures(surface.at, closures_);
+    counts.dropped_closures += closures_.n_dropped();
+    absorb(surface);
+    if (pass_hidden_surface(surface, ray)) return Arrival::Passed;
+    if (closures_.shadow_matte() != nullptr) add_shadow_matte(surface, ray);
+    if (seen()) note_first_hit(surface, camera_from_world);
+    if (!lights_only_) add_emission();
+    return Arrival::There;
+}
+
+template <class Tracker>
+auto Integrator<Tracker>::pass(const Ray& ray, float t_surface) -> Passage {
+    if (scene_.light_accel && !by_shadow_rays())
+        if (const Passage end = add_area_lights(ray, t_surface); end != Passage::Free) return end;
+    return travel(ray, t_surface);
 }
 
 /// Where masks tell shares of the ray apart, one of them goes on, chosen by luminance.
@@ -197,60 +219,9 @@ void Integrator<Tracker>::drop(std::uint32_t event) {
     counts.dropped_depth = n_scatter_;
 }
 
+/// Adds the area lights that the ray meets before `t_surface`, after the media before each.
 template <class Tracker>
-template <class Value>
-void Integrator<Tracker>::deposit(Terminal terminal, const Value& value) {
-    Color total;
-    const std::span<const PathGroup> groups = groups_.all();
-    for (std::size_t g = 0; g < groups.size(); ++g)
-        total += groups[g].throughput * value(g);
-    if (is_black(total)) return;
-    if (!is_finite(total)) return drop(terminal.event);
-    const float scale = clamp_factor(total, n_scatter_);
-    out_->beauty += total * scale;
-    tracker_.add(terminal, value, scale);
-}
-
-template <class Tracker>
-template <class Value>
-void Integrator<Tracker>::deposit_scattered(Terminal terminal, const Value& value) {
-    Color total;
-    const std::span<const PathGroup> groups = groups_.all();
-    const auto scaled = [&](std::size_t g, std::size_t c) {
-        return value(g, c) * groups_.indirect(g);
-    };
-    for (std::size_t g = 0; g < groups.size(); ++g)
-        for (std::size_t c = 0; c < n_channels_; ++c)
-            total += groups[g].throughput * scaled(g, c);
-    if (is_black(total)) return;
-    if (!is_finite(total)) return drop(terminal.event);
-    const float scale = clamp_factor(total, n_scatter_ + 1);
-    out_->beauty += total * scale;
-    tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, scaled, scale);
-}
-
-template <class Tracker>
-template <class Value>
-void Integrator<Tracker>::deposit_scattered_light(const SceneLight& light, const Value& value) {
-    const Terminal as_light{light.as_light, light.light_event},
-        as_background{light.as_background, light.background_event};
-    if (!light.is_skydome) return deposit_scattered(as_light, value);
-    if (light.common.aov_indirect) return deposit_scattered(as_background, value);
-    const auto is_seen = [&](std::size_t g, std::size_t c) {
-        return groups_[g].key.seen && channels_[c].record->makes_no_event;
-    };
-    deposit_scattered(as_light, [&](std::size_t g, std::size_t c) {
-        return is_seen(g, c) ? kBlack : value(g, c);
-    });
-    if (some_group_is_seen())
-        deposit_scattered(as_background, [&](std::size_t g, std::size_t c) {
-            return is_seen(g, c) ? value(g, c) : kBlack;
-        });
-}
-
-/// Adds the area lights that the ray meets before `t_surface`. True if one of them hides what is behind it.
-template <class Tracker>
-bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
+auto Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) -> Passage {
     Ray rest = ray;
     rest.t_max = t_surface * (1 + kCoplanar);
     RayHit hit;
@@ -259,7 +230,11 @@ bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
         const std::uint32_t index = scene_.light_of_object[hit.object];
         const SceneLight& light = scene_.lights[index];
         const LightHit at = make_light_hit(scene_.light_objects[hit.object], ray, hit);
-        if (is_behind(at, hit.t - t_surface, ray)) return false;
+        if (is_behind(at, hit.t - t_surface, ray)) return Passage::Free;
+        // Where shadow rays decide, they weigh the media, too.
+        if (!by_shadow_rays())
+            if (const Passage end = travel(ray, std::min(hit.t, t_surface)); end != Passage::Free)
+                return end;
         rest.t_min = std::nextafter(hit.t, kInfinity);
         Terminal terminal{light.as_light, light.light_event};
 #ifdef LIGHTSIEVE_FAULT_INJECTION
@@ -275,7 +250,7 @@ bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
             deposit(terminal, [&](std::size_t) { return radiance * seen; });
             const float hidden = std::min(seen, 1.0F);
             out_->alpha += average(passed_) * hidden;
-            if (hidden >= 1) return true;
+            if (hidden >= 1) return Passage::Ended;
             groups_.scale(Color::grey(1 - hidden));
             tracker_.scale(Color::grey(1 - hidden));
             passed_ *= 1 - hidden;
@@ -291,7 +266,7 @@ bool Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) {
         add_met_light(index, light.light->hit(last_.position, seen_from), terminal, ray,
                       hit.t * (1 - kShadowEpsilon));
     }
-    return false;
+    return Passage::Free;
 }
 
 /// Light that a ray from the last vertex met by chance: the twin of a light sample, and weighted against it.
@@ -308,7 +283,7 @@ void Integrator<Tracker>::add_met_light(std::uint32_t index, const LightEval& ev
     if (by_shadow_rays()) {
         Ray shadow = ray;
         shadow.t_max = distance;
-        arriving *= visibility_along(shadow, nullptr).straight;
+        arriving *= visibility_along(shadow, nullptr).straight * media_transmittance(shadow);
     }
     const auto brought = [&](std::size_t g) {
         if (!groups_.direct_light(g)) return kBlack;
@@ -406,10 +381,12 @@ template <class Tracker>
 void Integrator<Tracker>::absorb(const Surface& surface) {
     const Interior& own = closures_.interior();
     const Interior* here = interiors_.here();
+    // Where collisions are drawn they have taken away what is absorbed.
+    if (here != nullptr && here->medium.scatters()) return;
     if (own.is_body && !surface.at.entering)
         here = is_hidden(surface, own, interiors_) ? interiors_.around(surface.shader) : &own;
-    if (here == nullptr || is_black(here->absorption)) return;
-    const Color left = transmittance(here->absorption, surface.t);
+    if (here == nullptr || is_black(here->medium.extinction)) return;
+    const Color left = transmittance(here->medium.extinction, surface.t);
     groups_.scale(left);
     tracker_.scale(left);
     if (!seen()) return;
@@ -488,10 +465,11 @@ bool Integrator<Tracker>::some_group_is_seen() const {
 }
 
 template <class Tracker>
-void Integrator<Tracker>::add_emission() {
+void Integrator<Tracker>::add_emission(float factor) {
     for (const Emission& e : closures_.emissions())
         deposit({e.record->terminal, e.record->event}, [&](std::size_t g) {
-            return groups_[g].key.lights_only ? kBlack : e.radiance * groups_.indirect(g);
+            return groups_[g].key.lights_only ? kBlack
+                                              : e.radiance * groups_.indirect(g) * factor;
         });
 }
 
@@ -580,7 +558,10 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
     const SceneObject& object = *surface.object;
     const bool samples_only = light.samples_only || object.tampers_with_shadows();
     const float pdf_light = pick.probability * sample.pdf;
-    const float weight = sample.delta || samples_only ? 1 : power_heuristic(pdf_light, pdf_lobes);
+    float weight = sample.delta || samples_only ? 1 : power_heuristic(pdf_light, pdf_lobes);
+    if (surface.in_medium && vertex_part_ && !light.light->infinite())
+        weight *= share_of_collisions(vertex_ray_, *vertex_part_, surface.t, pick.light,
+                                      pick.probability);
     const float kept = low_light_survival(value, light, sample.radiance * (weight / pdf_light));
     if (kept < 1 && random(2) >= kept) return;
     const Visibility visible = visibility(surface, pick.light, sample);
@@ -595,7 +576,8 @@ void Integrator<Tracker>::add_light_samples(const Surface& surface) {
         if (key.lights_only || !channel_allowed(key, channels_[c]) || !channels_[c].direct_light)
             return kBlack;
         const LobeRecord& record = *channels_[c].record;
-        const Color incident = record.lobe == EventLobe::Specular ? to_specular : to_diffuse;
+        // Rays that volumes scatter may be refracted, as specular ones: their twins exist.
+        const Color incident = record.lobe == EventLobe::Diffuse ? to_diffuse : to_specular;
         return value[c] * incident *
                light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface),
                             n_scatter_ + 1);
@@ -634,6 +616,12 @@ auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index
     Ray ray{start_of_ray(surface, sample.wi), sample.wi, 0, sample.distance * (1 - kShadowEpsilon),
             surface.at.time};
     Visibility out = visibility_along(ray, object.self_shadows ? nullptr : &object);
+    if (!scene_.volumes.empty() && light.common.cast_volumetric_shadows &&
+        !is_black(out.tinted)) {
+        const Color left = media_transmittance(ray);
+        out.straight *= left;
+        out.tinted *= left;
+    }
     if (light.common.shadow_density == 1 && is_black(light.common.shadow_color)) return out;
     for (Color* through : {&out.straight, &out.tinted}) {
         const Color shadow = (kWhite - *through) * light.common.shadow_density;

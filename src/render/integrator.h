@@ -15,6 +15,7 @@
 #include "core/sobol.h"
 #include "render/film.h"
 #include "render/interiors.h"
+#include "render/media_path.h"
 #include "render/path_terms.h"
 #include "render/scene.h"
 #include "render/subsurface_walk.h"
@@ -75,10 +76,20 @@ class Integrator {
         Vec2f roulette;   ///< x: roulette, y: choice within a lobe
     };
 
+    /// How a part of a ray ends.
+    enum class Passage : std::uint8_t {
+        Free,       ///< it goes on
+        Scattered,  ///< in a medium, at medium_vertex_
+        Ended       ///< absorbed, or hidden by a light
+    };
+
     // Steps of `trace`, in order.
     void choose_mask_group();
     [[nodiscard]] std::uint32_t ray_mask() const;
-    bool add_area_lights(const Ray& ray, float t_surface);
+    void begin_media(const Ray& ray, float t_end);
+    /// Through media and past area lights up to the next surface.
+    [[nodiscard]] Passage pass(const Ray& ray, float t_surface);
+    [[nodiscard]] Passage add_area_lights(const Ray& ray, float t_surface);
     void add_escape(const Ray& ray);
     float add_infinite_lights(const Ray& ray);
     void add_exit_background(const Ray& ray);
@@ -86,6 +97,14 @@ class Integrator {
     /// What shaders must know of the path.
     void tell_path(ShadePoint& at, const Interiors& inside, const ShaderProgram* shader) const;
     void go_straight(const Surface& surface, Ray& ray) const;
+    /// What comes of a surface that the ray met.
+    enum class Arrival : std::uint8_t {
+        There,   ///< closures_ say what it does
+        Passed,  ///< the ray goes on behind it
+        Ended
+    };
+    /// Runs the shader of a surface: emission, data of the first hit.
+    [[nodiscard]] Arrival arrive(Surface& surface, Ray& ray, const Mat4f& camera_from_world);
     void absorb(const Surface& surface);
     [[nodiscard]] bool is_hidden(const Surface& surface, const Interior& own,
                                  const Interiors& inside) const;
@@ -95,7 +114,7 @@ class Integrator {
     void add_shadow_matte(const Surface& surface, const Ray& ray);
     [[nodiscard]] ShadowShown shadow_on(const Surface& surface, const ShadowMatte& matte);
     void note_behind(const Surface& surface, const Mat4f& camera_from_world);
-    void add_emission();
+    void add_emission(float factor = 1);
     void gather_channels(const Surface& surface);
     void add_probes();
     void choose_probabilities();
@@ -105,6 +124,31 @@ class Integrator {
     bool survives_roulette();
     /// The same through a subsurface closure: a walk, light at its end, a direction from there.
     bool scatter_below(const Surface& surface, std::size_t drawn, Ray& ray);
+
+    // Media (integrator_media.cpp).
+    /// Through media from where the ray has come to up to `to`.
+    [[nodiscard]] Passage travel(const Ray& ray, float to);
+    [[nodiscard]] Passage collide(const Ray& ray, const Collision& collision);
+    void scatter_in_medium(const Ray& ray, const Collision& collision, Color weight);
+    void add_media_opacity(const Ray& ray, float to);
+    [[nodiscard]] Color media_transmittance(const Ray& ray);
+
+    // Light along parts of rays (integrator_along.cpp).
+    /// A part of a ray in a medium that is the same everywhere.
+    struct AlongRay {
+        Medium medium;
+        float start = 0;            ///< to where the path's throughput is known
+        float begin = 0, end = 0;   ///< of the part
+        float collisions = 0;       ///< bound by which they are drawn; 0: there are none
+        const SceneObject* object = nullptr;  ///< the volume; null: the atmosphere
+    };
+    void add_haze(const Ray& ray, float to);
+    void fade_in_haze(float from, float to);
+    void add_fog(const Ray& ray, float to);
+    void add_light_along(const Ray& ray, const AlongRay& part, int i, int n);
+    [[nodiscard]] AlongRay along(const VolumeInterval& interval, float to);
+    [[nodiscard]] float share_of_collisions(const Ray& ray, const AlongRay& part, float t,
+                                            std::uint32_t light, float pick) const;
 
     // Parts of them.
     [[nodiscard]] std::size_t n_scatterers() const {
@@ -189,6 +233,19 @@ class Integrator {
     Interiors interiors_;                          ///< that the path is inside of
     Wavelength wavelength_;                        ///< that the path takes when it must
     bool monochromatic_ = false;                   ///< it has taken it
+    MediaPath media_;                              ///< along the current ray
+    float media_t_ = 0;                            ///< how far the ray has come through them
+    /// The atmosphere along the current ray.
+    struct Haze {
+        Medium medium;
+        float far = 0;  ///< where it ends for rays without end
+    };
+    Haze haze_;
+    std::uint32_t n_shadow_rays_ = 0;              ///< through media: each draws numbers of its own
+    Surface medium_vertex_;                        ///< where the path scattered in a medium
+    /// The part of the ray where it did, if points along it were asked for light, too.
+    std::optional<AlongRay> vertex_part_;
+    Ray vertex_ray_;
     float pass_probability_ = 0;                   ///< of going straight through
     bool transmissive_ = false;                    ///< some lobe sends light to the other side
     bool all_delta_ = false;                       ///< no light sample can get through any lobe

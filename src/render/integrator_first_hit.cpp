@@ -7,15 +7,15 @@
 namespace lightsieve {
 namespace {
 
-FirstHit data_of(const Surface& surface, Color opacity, const Mat4f& camera_from_world) {
-    return {true,
-            -camera_from_world.point(surface.at.position).z,
-            surface.at.normal,
-            surface.at.position,
-            surface.at.uv,
-            surface.object->id,
-            opacity,
-            {}};
+/// Fills in all but what media have to say.
+void note(FirstHit& out, const Surface& surface, Color opacity, const Mat4f& camera_from_world) {
+    out.hit = true;
+    out.depth = -camera_from_world.point(surface.at.position).z;
+    out.normal = surface.at.normal;
+    out.position = surface.at.position;
+    out.uv = surface.at.uv;
+    out.id = surface.object->id;
+    out.opacity = opacity;
 }
 
 /// Light samples that decide about a shadow. A ratio of means of few samples is a little biased toward no shadow.
@@ -46,7 +46,7 @@ void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& ca
     if (knows_first_ || is_black(opacity)) return;
     knows_first_ = true;
     if (is_black(past)) {
-        out_->first = data_of(surface, opacity, camera_from_world);
+        note(out_->first, surface, opacity, camera_from_world);
         if (closures_.shadow_matte() != nullptr) out_->first.shadow = shadow_;
     } else {
         note_behind(surface, camera_from_world);
@@ -73,7 +73,7 @@ void Integrator<Tracker>::note_behind(const Surface& front, const Mat4f& camera_
             if (!(sample.pdf > 0)) return;
             along = sample.wi;
         } else if (!hidden && !is_black(opacity)) {
-            out_->first = data_of(surface, opacity, camera_from_world);
+            note(out_->first, surface, opacity, camera_from_world);
             return;
         }
         if (own.is_body && (lobe || hidden))

@@ -102,11 +102,12 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     for (Color& factor : factors)
         factor *= wavelength;
     if (!advance(factors, drawn)) return false;
-    if (dot(sample.wi, surface.outward) < 0) {
+    if (dot(sample.wi, surface.outward) < 0 && !surface.in_medium) {
         monochromatic_ |= closures_.disperses();
         // Curves have no inside: rays to their far side are past them.
         if (closures_.interior().is_body && !surface.at.on_curve)
-            interiors_.cross(surface.shader, closures_.interior(), surface.at.entering);
+            interiors_.cross(surface.shader, closures_.interior(), surface.at.entering,
+                             surface.object);
     }
     last_.position = surface.at.position;
     last_.pick_normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;

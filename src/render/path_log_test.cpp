@@ -31,7 +31,13 @@ std::vector<std::string> custom(const std::string& group) {
             "two C.{2}L",
             "sheen_then C'sheen'.*",
             "not_group C.*<L[^'" + group + "']>",
-            "many C(DS|SD)*.?[LOB]"};
+            "many C(DS|SD)*.?[LOB]",
+            "in_media C.*V.*",
+            "twice_in_media CVV.*",
+            "sss_skin C<TD'skin'>.*",
+            "emission_fire C<O.'fire'>",
+            "hair C'hair'.*",
+            "no_smoke C[^'smoke']*"};
 }
 
 struct Case {
@@ -43,7 +49,8 @@ class PathLogOracle : public ::testing::TestWithParam<Case> {};
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PathLogOracle,
                          ::testing::Values(Case{"laws_lobes.ass", "key"},
-                                           Case{"laws_room.ass", "ceiling"}));
+                                           Case{"laws_room.ass", "ceiling"},
+                                           Case{"laws_media.ass", "key"}));
 
 TEST_P(PathLogOracle, EqualsTheAovs) {
     std::vector<std::string> aovs = all_builtins();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/event.h"
+#include "core/sampling.h"
 #include "io/texture.h"
 #include "lpe/program.h"
 #include "render/accel.h"
@@ -14,34 +15,15 @@
 #include "render/light_sampler.h"
 #include "render/path_terms.h"
 #include "render/render.h"
+#include "render/scene_object.h"
 #include "render/shader_program.h"
+#include "render/volume.h"
 #include "scene/camera.h"
 #include "scene/light.h"
 #include "scene/pixel_filter.h"
 #include "scene/shape.h"
 
 namespace lightsieve {
-
-/// One shape placed in the world.
-struct SceneObject {
-    const ShapeGeometry* geometry = nullptr;
-    std::vector<Mat4f> world_from_object;       ///< keys over the shutter
-    std::vector<Mat4f> object_from_world;       ///< inverse of each key
-    std::vector<const ShaderProgram*> shaders;  ///< at least one; by the mesh's shader_index
-    const LightSampler* lights = nullptr;       ///< lights that illuminate it
-    /// Lights that cast shadows on it, one flag a light; empty: all.
-    std::vector<bool> shadow_lights;
-    Name name;
-    std::uint32_t id = 0;
-    std::uint8_t visibility = 255, sidedness = 255;
-    bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;
-    bool may_be_transparent = false;  ///< rays may pass straight through
-    bool may_tint_shadows = false;    ///< shadow rays may, though other rays do not
-    /// What hides lights from it is not what hides them from a ray that leaves it: only light samples find lights.
-    [[nodiscard]] bool tampers_with_shadows() const {
-        return !receive_shadows || !self_shadows || !shadow_lights.empty();
-    }
-};
 
 struct SceneLight {
     std::unique_ptr<Light> light;
@@ -88,9 +70,19 @@ class Scene {
         light_samplers;                          ///< 0: all lights; others: light groups of shapes
     std::vector<std::uint32_t> light_of_object;  ///< of light_accel: index into lights
     std::vector<SceneObject> light_objects;      ///< geometry of area lights
+    std::vector<SceneVolume> volumes;
+    /// Lights of finite distance by power, index as in `lights`; only where media are. Without cells: there are none.
+    Distribution1D finite_lights;
     std::unique_ptr<Accel> accel;                ///< shapes
     std::unique_ptr<Accel> light_accel;          ///< area lights; null if there are none
     const ShaderProgram* background = nullptr;   ///< options.background
+    const ShaderProgram* atmosphere = nullptr;   ///< options.atmosphere
+    /// What the atmosphere needs of the scene.
+    struct HazeScene {
+        Box3f bounds;     ///< of shapes and lights
+        int samples = 1;  ///< points along a camera ray
+    };
+    HazeScene haze;
     std::uint8_t background_visibility = 255;
     LobeRecord background_record;  ///< B without a group
     std::vector<Event> events;     ///< every event the scene can produce

@@ -3,21 +3,10 @@
 #include <array>
 #include <cmath>
 
+#include "render/placement.h"
+
 namespace lightsieve {
 namespace {
-
-/// Two neighbouring keys and how far the time lies between them.
-struct KeyBlend {
-    std::size_t first = 0, second = 0;
-    float f = 0;
-};
-
-KeyBlend blend_at(std::size_t n_keys, float time) {
-    if (n_keys <= 1) return {};
-    const float x = std::clamp(time, 0.0F, 1.0F) * static_cast<float>(n_keys - 1);
-    const std::size_t i = std::min(static_cast<std::size_t>(x), n_keys - 2);
-    return {i, i + 1, x - static_cast<float>(i)};
-}
 
 /// A list with motion keys at one time. Things at rest, which most are, cost one look-up a point.
 class AtTime {
@@ -34,23 +23,6 @@ class AtTime {
     const Vec3f *first_, *second_;
     float f_;
 };
-
-/// Placement of an object at a time: matrix and inverse.
-struct Placement {
-    const Mat4f &world_from_object, &object_from_world;
-};
-
-/// Calls `body` with the object's placement; matrices of things at rest are not copied.
-template <class Body>
-auto with_placement(const SceneObject& object, float time, const Body& body) {
-    if (object.world_from_object.size() == 1)
-        return body(Placement{object.world_from_object[0], object.object_from_world[0]});
-    const KeyBlend k = blend_at(object.world_from_object.size(), time);
-    const Mat4f m = lerp(object.world_from_object[k.first], object.world_from_object[k.second],
-                         k.f),
-                inverse = m.inverse();
-    return body(Placement{m, inverse});
-}
 
 /// What a primitive says about a point, object space.
 struct LocalPoint {
@@ -301,6 +273,7 @@ LightHit light_hit_at(const Placement& place, const SceneObject& object, const R
 }  // namespace
 
 Vec3f start_of_ray(const Surface& surface, Vec3f wi) {
+    if (surface.in_medium) return surface.at.position;
     const bool outside = dot(wi, surface.outward) > 0;
     if (!surface.round_fibre || outside)
         return offset_ray_origin(surface.at.position,

@@ -18,7 +18,8 @@ struct Surface {
     float t = 0;  ///< along the ray
     /// Round curves: rays to the far side leave from there, for their lobes are those of the whole fibre.
     bool round_fibre = false;
-    Vec3f fibre_center;  ///< of the cross-section, world space
+    Vec3f fibre_center;      ///< of the cross-section, world space
+    bool in_medium = false;  ///< no surface but a point in a volume: it has no sides
 };
 
 /// Where a ray that leaves the surface toward `wi` starts.

@@ -164,6 +164,8 @@ class Describe {
 
     /// The shader's result depends on ShadePoint::ray_type.
     void reads_ray_type() { type_.reads_ray_type = true; }
+    /// The shader says what fills a volume.
+    void fills_volumes() { type_.fills_volumes = true; }
 
     [[nodiscard]] NodeType done() {
         type_.default_block.resize(sizeof(T));

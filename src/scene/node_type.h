@@ -75,6 +75,8 @@ struct NodeType {
     OutputType output = OutputType::None;
     /// The shader asks for the type of the ray: shares of a path that came by other types cannot go on as one ray.
     bool reads_ray_type = false;
+    /// The shader says what fills a volume.
+    bool fills_volumes = false;
 
     std::size_t block_size = 0, block_align = 1;
     std::vector<std::byte> default_block;  ///< the bytes of a default constructed parameter struct

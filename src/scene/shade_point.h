@@ -8,6 +8,8 @@
 
 namespace lightsieve {
 
+class VolumeLookup;  // scene/volume_lookup.h
+
 struct ShadePoint {
     Vec3f position;                   ///< world space
     Vec3f wo{0, 0, 1};                ///< unit, toward where the ray came from
@@ -31,6 +33,8 @@ struct ShadePoint {
     float wavelength = 587.6F;
     bool monochromatic = false;
     const void* shape = nullptr;  ///< the renderer's record of the shape, for user data
+    const VolumeLookup* volume =
+        nullptr;  ///< in a volume with grids; null on surfaces and in containers without
 
     /// For environment look-ups (skydome colour, background): the direction, world space; only `uv` and this are set.
     Vec3f direction{0, 0, 1};

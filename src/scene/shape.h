@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct ShapeCommon {
     bool receive_shadows = true, self_shadows = true, matte = false, invert_normals = false;
     bool opaque = true;  ///< deprecated, without effect
     float ray_bias = 1e-6F;
+    /// Above 0 the shape is no surface but the container of a volume.
+    float step_size = 0;
+    float volume_padding = 0;  ///< how much a container reaches beyond the shape
     std::uint32_t id = 0;
     bool use_light_group = false, use_shadow_group = false;
     Array<NodeRef> light_group, shadow_group;
@@ -73,8 +77,14 @@ struct CurveList {
     [[nodiscard]] std::uint32_t n_controls() const { return linear ? 2 : 4; }
 };
 
+class VolumeGrids;  // io/volume_grid.h
+
 struct ShapeGeometry {
     std::variant<TriangleMesh, SphereList, CurveList> data;
+    /// The geometry is the boundary of a volume. A box's mesh is one; it is known to be a box.
+    bool is_volume = false;
+    Box3f volume_box;                          ///< object space; empty: the geometry is no box
+    std::shared_ptr<const VolumeGrids> grids;  ///< channels of the volume; null: none
     /// A ginstance gives no geometry of its own but another node's.
     NodeRef instance_of;
     bool inherit_xform = true;

@@ -31,7 +31,7 @@ struct Dielectric : MicrofacetCommon {
         const bool inside = transmits(scatter_mode) && !at.entering;
         const BodyIndex index(ior, 0, at);
         const float eta = transmits(scatter_mode) ? index.refracting() : ior;
-        if (transmits(scatter_mode)) out.set_interior({kBlack, index.inside()});
+        if (transmits(scatter_mode)) out.set_interior({{}, index.inside()});
         const LobeModel reflection = thinfilm_thickness > 0 && !inside
                                          ? LobeModel(filmed(Color::grey(ior), kBlack))
                                          : LobeModel(DielectricReflect(alpha(), eta));

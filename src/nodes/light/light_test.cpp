@@ -463,7 +463,9 @@ ShapeGeometry cube() {
                     3, 7, 6, 3, 6, 2, 0, 4, 7, 0, 7, 3, 1, 2, 6, 1, 6, 5};
     mesh.corner = mesh.indices;
     mesh.face = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
-    return {mesh, {}, true};
+    ShapeGeometry out;
+    out.data = mesh;
+    return out;
 }
 
 Bench mesh_bench(const Mat4f& m) {
@@ -507,7 +509,7 @@ TEST(MeshLight, FlatMeshKnowsItsSide) {
     square.face = {0, 0};
     square.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     square.uv_indices = square.indices;
-    b.context->mesh = ShapeGeometry{square, {}, true};
+    b.context->mesh.emplace().data = square;
     b.context->shader = [](const ShadePoint& at) { return Color{at.uv.x, at.uv.y, 1}; };
     b.node.set("normalize", false);
     b.make();
@@ -525,7 +527,7 @@ TEST(MeshLight, HostileMeshes) {
     EXPECT_EQ(none.context->diagnostics().items().at(0).where.text(), "mesh");
 
     Bench ball = mesh_bench({});
-    ball.context->mesh = ShapeGeometry{SphereList{{{{0, 0, 0}}}, {1}}, {}, true};
+    ball.context->mesh.emplace().data = SphereList{{{{0, 0, 0}}}, {1}};
     ball.make();
     EXPECT_EQ(ball.light, nullptr);
     EXPECT_EQ(ball.context->diagnostics().items().at(0).where.text(), "mesh");

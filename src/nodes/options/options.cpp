@@ -215,8 +215,7 @@ void describe_nodes(Describe<Options>& d) {
     d.param("background_visibility", &Options::background_visibility,
             "Ray types that see the background (a mask as `visibility` of shapes).");
     d.param("shader_override", &Options::shader_override, "Shader that replaces all others.");
-    d.param("atmosphere", &Options::atmosphere, "Shader of a volume that fills the scene.")
-        .pending();
+    d.param("atmosphere", &Options::atmosphere, "Shader of a volume that fills the scene.");
     d.param("operator", &Options::op,
             "Last node of a chain that edits the scene before rendering.")
         .pending();
@@ -255,8 +254,7 @@ void describe_switches(Describe<Options>& d) {
     d.param("ignore_textures", &Options::ignore_textures, "Renders without textures.").pending();
     d.param("ignore_shaders", &Options::ignore_shaders, "Renders without shaders.").pending();
     d.param("ignore_atmosphere", &Options::ignore_atmosphere,
-            "Renders without atmosphere; there is none yet.")
-        .ignored();
+            "Renders without atmosphere.");
     d.param("ignore_lights", &Options::ignore_lights, "Renders without lights.").pending();
     d.param("ignore_shadows", &Options::ignore_shadows, "Renders without shadows.").pending();
     d.param("ignore_subdivision", &Options::ignore_subdivision,

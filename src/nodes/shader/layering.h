@@ -89,16 +89,25 @@ inline void add_below_surface(ClosureSet& out, int lobe, Color color, Color radi
     return unit(kWhite - weight * albedo_of(model, wo));
 }
 
-/// Absorption coefficient of an interior [1/scene unit]: `color` is left after `depth`, less what scatters.
-/// Source: Autodesk Standard Surface 1.0.1, section 4.3.
-[[nodiscard]] inline Color interior_absorption(Color color, float depth, Color scatter) {
+/// An interior that leaves `color` of straight light after `depth`, and scatters with the coefficient `scattering`. Where more
+/// would scatter than is lost in all, absorption grows by the same amount in every channel until none is negative.
+/// Source: Autodesk Standard Surface 1.0.1, section 4.3; the shift as in OpenPBR 1.1, section "Translucent base".
+///
+/// lobe  of the scattering event, or -1: it only absorbs
+[[nodiscard]] inline Medium interior_medium(const ClosureSet& out, int lobe, Color color,
+                                            float depth, Color scattering,
+                                            const Phase& phase = {}) {
     constexpr float kDarkest = 1e-6F;
-    Color out;
+    const Color scatters = positive(scattering);
+    Color absorption;
+    float least = 0;
     for (int c = 0; c < 3; ++c) {
         const float left = std::clamp(color[c], kDarkest, 1.0F);
-        out[c] = std::max(0.0F, -std::log(left) / depth - positive(scatter[c]));
+        absorption[c] = -std::log(left) / depth - scatters[c];
+        least = std::min(least, absorption[c]);
     }
-    return out;
+    absorption = positive(absorption - Color::grey(least));
+    return out.medium(lobe, absorption + scatters, scatters, phase);
 }
 
 }  // namespace lightsieve

@@ -20,7 +20,8 @@ enum Lobes : int {
     kCoat,
     kTransmission,
     kSubsurface,
-    kEmission
+    kEmission,
+    kInterior
 };
 
 struct OpenPbrSurface {
@@ -88,12 +89,7 @@ class Layering {
           index_{modulated_ior(), abbe_number(s), at},
           base_(oriented(at, out, s.geometry_normal)) {
         if (!(transmission_ > 0) || s.geometry_thin_walled) return;
-        const Color absorption =
-            s.transmission_depth > 0
-                ? interior_absorption(s.transmission_color, s.transmission_depth,
-                                      s.transmission_scatter)
-                : kBlack;
-        out.set_interior({absorption, index_.inside(), s.dielectric_priority});
+        out.set_interior({interior(), index_.inside(), s.dielectric_priority});
         if (index_.disperses()) out.disperse();
     }
 
@@ -196,6 +192,13 @@ class Layering {
     }
 
   private:
+    /// What the body is filled with. Source: OpenPBR 1.1, section "Translucent base".
+    [[nodiscard]] Medium interior() const {
+        if (!(s_.transmission_depth > 0)) return {};
+        return interior_medium(out_, kInterior, s_.transmission_color, s_.transmission_depth,
+                               s_.transmission_scatter * (1 / s_.transmission_depth),
+                               Phase(s_.transmission_scatter_anisotropy));
+    }
     /// Section 3.6; of a thin wall half is reflected and half transmitted (3.9.1).
     void add_subsurface(Color weight) {
         const Color color = positive(s_.subsurface_color);
@@ -345,12 +348,10 @@ void describe_interior(Describe<S>& d) {
             "Depth at which the interior has transmission_color; 0: tinted at the surface.")
         .unit("scene units");
     d.param("transmission_scatter", &S::transmission_scatter,
-            "Scattering coefficient of the interior.")
-        .unit("1/scene units")
-        .pending();
+            "What of the light is scattered, not absorbed, within transmission_depth.");
     d.param("transmission_scatter_anisotropy", &S::transmission_scatter_anisotropy,
-            "Mean cosine of that scattering; acts with transmission_scatter.")
-        .ignored();
+            "Mean cosine of that scattering: above 0 light goes on forward.")
+        .range(-1, 1);
     d.param("transmission_dispersion_scale", &S::transmission_dispersion_scale,
             "How much the index depends on the wavelength; 0: not.")
         .range(0, 1);
@@ -439,6 +440,8 @@ NodeType OpenPbrSurface::describe() {
     d.lobe_below_surface(kSubsurface,
                          "Subsurface scattering; diffuse transmission where thin-walled.");
     d.lobe(kEmission, EventKind::Object, EventLobe::None, "", "Emission.");
+    d.lobe(kInterior, EventKind::Volume, EventLobe::None, "",
+           "Scattering inside: transmission_scatter.");
     describe_base(d);
     describe_interior(d);
     describe_layers(d);

@@ -21,6 +21,7 @@ enum Lobe {
     kTransmission,
     kSubsurface,
     kEmission,
+    kInterior,
     kLobes
 };
 
@@ -132,12 +133,12 @@ TEST(OpenPbr, ThinWallsHaveNoInterior) {
     TestNode node(node_openpbr_surface());
     node.set("transmission_weight", 1.0F).set("transmission_depth", 2.0F);
     node.set("transmission_color", Color{0.5F, 0.25F, 1});
-    const Color inside = Shaded(node, 1).set.interior().absorption;
+    const Color inside = Shaded(node, 1).set.interior().medium.extinction;
     EXPECT_NEAR(inside.r, std::log(2.0F) / 2, 1e-5);
     EXPECT_NEAR(inside.g, std::log(4.0F) / 2, 1e-5);
     EXPECT_EQ(inside.b, 0);
     node.set("geometry_thin_walled", true);
-    EXPECT_TRUE(is_black(Shaded(node, 1).set.interior().absorption));
+    EXPECT_TRUE(is_black(Shaded(node, 1).set.interior().medium.extinction));
     EXPECT_NEAR(Shaded(node, 1).weight(kTransmission).g / Shaded(node, 1).weight(kTransmission).b,
                 0.25F, 1e-5);
     node.set("transmission_weight", 0.0F).set("subsurface_weight", 1.0F);

@@ -84,7 +84,7 @@ void Standard::eval(const ShadePoint& at, ClosureSet& out) const {
     const Color refracted = positive(Kt) * positive(Kt_color);
     if (!is_black(refracted)) {
         const BodyIndex index(IOR, dispersion_abbe, at);
-        out.set_interior({interior_absorption(transmittance, 1, {}), index.inside()});
+        out.set_interior({interior_medium(out, -1, transmittance, 1, {}), index.inside()});
         if (index.disperses()) out.disperse();
         out.add(kRefraction,
                 DielectricTransmit(GgxAlpha::from_roughness(unit(refraction_roughness)),

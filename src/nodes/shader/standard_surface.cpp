@@ -25,7 +25,8 @@ enum Lobes : int {
     kCoat,
     kTransmission,
     kSubsurface,
-    kEmission
+    kEmission,
+    kInterior
 };
 
 struct StandardSurface : IdAovs {
@@ -87,12 +88,7 @@ class Layering {
           base_(oriented(at, out, s.normal)) {
         out.set_indirect({positive(s.indirect_diffuse), positive(s.indirect_specular)});
         if (transmission_ > 0 && !s.thin_walled) {
-            const Color absorption =
-                s.transmission_depth > 0
-                    ? interior_absorption(s.transmission_color, s.transmission_depth,
-                                          s.transmission_scatter)
-                    : kBlack;
-            out.set_interior({absorption, index_.inside(), s.dielectric_priority});
+            out.set_interior({interior(), index_.inside(), s.dielectric_priority});
             if (index_.disperses()) out.disperse();
         }
     }
@@ -195,6 +191,13 @@ class Layering {
     }
 
   private:
+    /// What the body is filled with.
+    [[nodiscard]] Medium interior() const {
+        if (!(s_.transmission_depth > 0)) return {};
+        return interior_medium(out_, kInterior, s_.transmission_color, s_.transmission_depth,
+                               s_.transmission_scatter,
+                               Phase(s_.transmission_scatter_anisotropy));
+    }
     [[nodiscard]] OrientedFrame specular_frame() {
         if (!(s_.specular_anisotropy > 0)) return base_;
         if (!has_specular_frame_)
@@ -301,11 +304,10 @@ void describe_transmission(Describe<S>& d) {
         .unit("scene units");
     d.param("transmission_scatter", &S::transmission_scatter,
             "Scattering coefficient of the interior.")
-        .unit("1/scene units")
-        .pending();
+        .unit("1/scene units");
     d.param("transmission_scatter_anisotropy", &S::transmission_scatter_anisotropy,
-            "Mean cosine of that scattering; acts with transmission_scatter.")
-        .ignored();
+            "Mean cosine of that scattering: above 0 light goes on forward.")
+        .range(-1, 1);
     d.param("transmission_dispersion", &S::transmission_dispersion,
             "Abbe number: the lower, the more colours part; 0: not at all.");
     d.param("transmission_extra_roughness", &S::transmission_extra_roughness,
@@ -411,6 +413,8 @@ NodeType StandardSurface::describe() {
     d.lobe_below_surface(kSubsurface,
                          "Subsurface scattering; diffuse transmission where thin_walled.");
     d.lobe(kEmission, EventKind::Object, EventLobe::None, "", "Emission.");
+    d.lobe(kInterior, EventKind::Volume, EventLobe::None, "",
+           "Scattering inside: transmission_scatter.");
     return d.done();
 }
 

@@ -24,6 +24,7 @@ enum Lobe {
     kTransmission,
     kSubsurface,
     kEmission,
+    kInterior,
     kLobes
 };
 
@@ -315,14 +316,14 @@ TEST(StandardSurface, DepthMovesTheTintIntoTheInterior) {
     TestNode node = smooth_surface();
     node.set("transmission", 1.0F).set("transmission_color", Color{0.5F, 0.25F, 1});
     const Shaded tinted(node, hit(1));
-    EXPECT_TRUE(is_black(tinted.set.interior().absorption));
+    EXPECT_TRUE(is_black(tinted.set.interior().medium.extinction));
     EXPECT_NEAR(tinted.weight(kTransmission).g / tinted.weight(kTransmission).b, 0.25F, 1e-5);
     node.set("transmission_depth", 2.0F);
     const Shaded deep(node, hit(1));
     EXPECT_NEAR(deep.weight(kTransmission).g / deep.weight(kTransmission).b, 1, 1e-5);
-    expect_color(deep.set.interior().absorption, {std::log(2.0F) / 2, std::log(4.0F) / 2, 0});
+    expect_color(deep.set.interior().medium.extinction, {std::log(2.0F) / 2, std::log(4.0F) / 2, 0});
     node.set("thin_walled", true);
-    EXPECT_TRUE(is_black(Shaded(node, hit(1)).set.interior().absorption));
+    EXPECT_TRUE(is_black(Shaded(node, hit(1)).set.interior().medium.extinction));
 }
 
 TEST(StandardSurface, CausticsFlagGoesToSpecularLobesOnly) {
@@ -355,7 +356,8 @@ TEST(StandardSurface, LobesMakeTheEventsOfTheReferencePage) {
                                         {EventKind::Reflection, EventLobe::Specular, "coat"},
                                         {EventKind::Transmission, EventLobe::Specular, ""},
                                         {EventKind::Transmission, EventLobe::Diffuse, ""},
-                                        {EventKind::Object, EventLobe::None, ""}}};
+                                        {EventKind::Object, EventLobe::None, ""},
+                                        {EventKind::Volume, EventLobe::None, ""}}};
     ASSERT_EQ(type.lobes.size(), rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         EXPECT_EQ(type.lobes[i].kind, rows[i].kind) << i;

@@ -73,8 +73,8 @@ TEST(Standard, ScattersBelowAndAbsorbsInside) {
     node.set("Ksss", 0.0F).set("Kt", 1.0F).set("IOR", 1.3F);
     node.set("transmittance", Color{0.5F, 1, 1});
     const Shaded glass(node);
-    EXPECT_NEAR(glass.set.interior().absorption.r, std::log(2.0F), 1e-5);
-    EXPECT_EQ(glass.set.interior().absorption.g, 0);
+    EXPECT_NEAR(glass.set.interior().medium.extinction.r, std::log(2.0F), 1e-5);
+    EXPECT_EQ(glass.set.interior().medium.extinction.g, 0);
     EXPECT_NEAR(glass.set.shadow_transmission().g, 1, 1e-5);
 }
 

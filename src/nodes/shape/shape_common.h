@@ -14,8 +14,6 @@ enum class TransformType : std::int32_t { Linear, RotateAboutOrigin, RotateAbout
 /// Parameters of every shape node that the renderer does not read.
 struct ShapeNode : ShapeCommon {
     TransformType transform_type = TransformType::RotateAboutCenter;
-    float step_size = 0,
-          volume_padding = 0;  ///< a step size above 0 makes a volume container: pending
     Name toon_id;
 };
 
@@ -60,14 +58,18 @@ void describe_shape_common(Describe<T>& d) {
             "How matrices between motion keys are found; here element by element.")
         .names({"linear", "rotate_about_origin", "rotate_about_center"})
         .ignored();
-    d.param("step_size", &ShapeNode::step_size, "Above 0 the shape is a container of a volume.")
-        .unit("scene units")
-        .pending();
-    d.param("volume_padding", &ShapeNode::volume_padding,
-            "Enlarges a volume container; acts with step_size.")
-        .ignored();
+    d.param("step_size", &ShapeCommon::step_size,
+            "Above 0 the shape is no surface but the container of a volume. How large it is does "
+            "not matter: free paths are drawn exactly, not stepped.")
+        .unit("scene units");
+    d.param("volume_padding", &ShapeCommon::volume_padding,
+            "How much a volume reaches beyond its box; containers that are meshes keep their shape.")
+        .unit("scene units");
     d.param("toon_id", &ShapeNode::toon_id, "Name for contour rendering, which is not supported.")
         .ignored();
 }
+
+/// The mesh of a box, faces outward, for shapes that are boundaries of volumes.
+[[nodiscard]] TriangleMesh box_mesh(const Box3f& box);
 
 }  // namespace lightsieve

@@ -1,0 +1,196 @@
+// Light that reaches media along a whole part of a ray: the haze of the atmosphere, and the glow around lamps in even fog.
+//
+// Points are drawn by the angle under which a light sees the ray, so that the bright surroundings of a lamp are found, and
+// the light is asked from there. Haze is lit by that alone; in fog, collisions find light, too, and the two are weighted
+// against each other by the densities with which they come upon the same point and light (any weights that add up to 1 keep
+// the sum right; these keep it quiet). Source: Kulla and Fajardo 2012, "Importance Sampling Techniques for Path Tracing in
+// Participating Media".
+#include <cmath>
+
+#include "render/integrator_deposit.h"
+#include "render/path_log.h"
+
+namespace lightsieve {
+namespace {
+
+constexpr std::uint32_t kAlongStream = 0x1f83d9abU;
+
+/// Haze belongs to no shape: every light shines into it and every shape casts shadows.
+const SceneObject& everywhere() {
+    static const SceneObject object;
+    return object;
+}
+
+/// Draws points on a part of a ray by the angle at a light.
+class Equiangular {
+  public:
+    Equiangular(const Ray& ray, float begin, float end, const Box3f& light) {
+        begin_ = begin;
+        end_ = end;
+        foot_ = dot(light.center() - ray.origin, ray.direction);
+        // Nearer than the size of the light the angle says nothing any more.
+        const float least = std::max(0.5F * length(light.size()), 1e-4F * (end - begin));
+        distance_ =
+            std::max(length(ray.origin + ray.direction * foot_ - light.center()), least);
+        a_ = std::atan((begin - foot_) / distance_);
+        b_ = std::atan((end - foot_) / distance_);
+    }
+    [[nodiscard]] float sample(float u) const {
+        return std::clamp(foot_ + distance_ * std::tan(lerp(a_, b_, u)), begin_, end_);
+    }
+    /// Per length.
+    [[nodiscard]] float pdf(float t) const {
+        return b_ > a_ ? distance_ / ((b_ - a_) * (square(distance_) + square(t - foot_))) : 0;
+    }
+
+  private:
+    float begin_, end_, foot_, distance_, a_, b_;
+};
+
+}  // namespace
+
+/// How much of a light's contribution collisions bring at distance t, the rest being that of points along the ray.
+///
+/// pick  probability with which a collision there asks the light
+template <class Tracker>
+float Integrator<Tracker>::share_of_collisions(const Ray& ray, const AlongRay& part, float t,
+                                               std::uint32_t light, float pick) const {
+    if (part.collisions == 0) return 0;
+    const float by_light = scene_.finite_lights.probability(light);
+    if (!(by_light > 0)) return 1;
+    const Equiangular points(ray, part.begin, part.end,
+                             scene_.lights[light].light->bounds().box);
+    const float along = by_light * points.pdf(t);
+    const float colliding =
+        pick * part.collisions * std::exp(-part.collisions * (t - part.begin));
+    return colliding + along > 0 ? colliding / (colliding + along) : 0;
+}
+
+/// Asks one light from one of n points along a part of a ray.
+template <class Tracker>
+void Integrator<Tracker>::add_light_along(const Ray& ray, const AlongRay& part, int i, int n) {
+    const std::uint32_t stream =
+        hash_combine(hash_combine(segment_, kAlongStream), n_shadow_rays_++);
+    const auto number = [&](std::uint32_t k) {
+        return sampler_->random(hash_combine(stream, k));
+    };
+    const Distribution1D::Sample picked = scene_.finite_lights.sample(number(1));
+    const auto index = static_cast<std::uint32_t>(picked.index);
+    const float pick = scene_.finite_lights.probability(picked.index);
+    const SceneLight& light = scene_.lights[index];
+    const Equiangular points(ray, part.begin, part.end, light.light->bounds().box);
+    const float t = points.sample((static_cast<float>(i) + number(0)) / static_cast<float>(n));
+    const float pdf = pick * points.pdf(t) * static_cast<float>(n);
+    Surface vertex;
+    vertex.in_medium = true;
+    vertex.at.position = ray.origin + ray.direction * t;
+    vertex.at.time = ray.time;
+    vertex.object = part.object != nullptr ? part.object : &everywhere();
+    const LightSample sample =
+        light.light->sample(vertex.at.position, {number(2), number(3)});
+    if (!(pdf > 0) || !(sample.pdf > 0) || is_black(sample.radiance)) return;
+    const float phase = PhaseLobe(part.medium.phase).eval(-ray.direction, sample.wi).pdf;
+    float weight = 1;
+    if (part.collisions > 0) {
+        const float asked = vertex.object->lights->probability(vertex.at.position, {0, 0, 0}, index);
+        if (!(asked > 0)) return;  // not in the volume's light group
+        weight = 1 - share_of_collisions(ray, part, t, index, asked);
+        // Rays that the phase function sends find the light, too.
+        if (!sample.delta && !light.samples_only)
+            weight *= power_heuristic(asked * sample.pdf, phase);
+    }
+    Color arriving = visibility(vertex, index, sample).straight;
+    if (is_black(arriving)) return;
+    if (part.collisions == 0)  // haze is no volume: shadow rays do not know of it
+        arriving *= transmittance(part.medium.extinction, sample.distance + t - part.begin);
+    Ray before = ray;
+    before.t_min = part.start;
+    before.t_max = t;
+    arriving *= media_transmittance(before);
+    const Color value = part.medium.scattering * sample.radiance * arriving *
+                        (weight * phase / (sample.pdf * pdf));
+    // The path's own vertex comes later and fills these anew.
+    channels_[0] = {part.medium.record, true};
+    n_channels_ = 1;
+    deposit_scattered({light.as_light, light.light_event}, [&](std::size_t g, std::size_t) {
+        return groups_[g].key.lights_only
+                   ? kBlack
+                   : value * light_factor(light.common, RayType::Volume, n_scatter_ + 1);
+    });
+}
+
+/// Light on even fog between media_t_ and `to`.
+template <class Tracker>
+void Integrator<Tracker>::add_fog(const Ray& ray, float to) {
+    if (lights_only_ || scene_.finite_lights.size() == 0) return;
+    for (const VolumeInterval& interval : media_.parts()) {
+        const AlongRay part = along(interval, to);
+        if (part.begin < part.end && part.collisions > 0 && part.medium.scatters())
+            add_light_along(ray, part, 0, 1);
+    }
+}
+
+template <class Tracker>
+auto Integrator<Tracker>::along(const VolumeInterval& interval, float to) -> AlongRay {
+    AlongRay part;
+    const SceneVolume& volume = *interval.volume;
+    part.start = media_t_;
+    part.begin = std::max(interval.begin, media_t_);
+    part.end = std::min(interval.end, to);
+    part.object = &volume.object;
+    if (!volume.homogeneous) return part;
+    part.medium = volume.medium;
+    part.collisions = max_component(volume.medium.extinction);
+    return part;
+}
+
+/// The atmosphere between media_t_ and `to`. Rays without end are followed to the far side of the scene.
+template <class Tracker>
+void Integrator<Tracker>::add_haze(const Ray& ray, float to) {
+    const Box3f& bounds = scene_.haze.bounds;
+    haze_ = {{}, std::min(to, length(bounds.center() - ray.origin) + length(bounds.size()))};
+    if (!(haze_.far > media_t_)) return;
+    ShadePoint at;
+    at.position = ray.origin;
+    at.wo = at.normal = at.geometric_normal = -ray.direction;
+    at.direction = ray.direction;
+    at.time = ray.time;
+    at.ray_type = groups_[0].key.ray_type;
+    closures_.begin_volume(at.wo);
+    scene_.atmosphere->closures(at, closures_);
+    haze_.medium = mixed(closures_.media());
+    if (lights_only_ || !haze_.medium.scatters() || scene_.finite_lights.size() == 0) return;
+    AlongRay part;
+    part.medium = haze_.medium;
+    part.start = part.begin = media_t_;
+    part.end = haze_.far;
+    const int n = n_scatter_ == 0 ? scene_.haze.samples : 1;
+    for (int i = 0; i < n; ++i)
+        add_light_along(ray, part, i, n);
+}
+
+/// What the haze takes away between two points of the ray.
+template <class Tracker>
+void Integrator<Tracker>::fade_in_haze(float from, float to) {
+    if (is_black(haze_.medium.extinction)) return;
+    const Color left =
+        transmittance(haze_.medium.extinction, std::max(std::min(to, haze_.far) - from, 0.0F));
+    groups_.scale(left);
+    tracker_.scale(left);
+    passed_ *= left;
+}
+
+// Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
+#define LIGHTSIEVE_ALONG(Tracker)                                                              \
+    template float Integrator<Tracker>::share_of_collisions(const Ray&, const AlongRay&, float, \
+                                                            std::uint32_t, float) const;       \
+    template void Integrator<Tracker>::add_light_along(const Ray&, const AlongRay&, int, int); \
+    template void Integrator<Tracker>::add_fog(const Ray&, float);                             \
+    template auto Integrator<Tracker>::along(const VolumeInterval&, float) -> AlongRay;        \
+    template void Integrator<Tracker>::add_haze(const Ray&, float);                            \
+    template void Integrator<Tracker>::fade_in_haze(float, float);
+LIGHTSIEVE_ALONG(AovTracker)
+LIGHTSIEVE_ALONG(LogTracker)
+#undef LIGHTSIEVE_ALONG
+
+}  // namespace lightsieve

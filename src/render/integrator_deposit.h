@@ -1,0 +1,59 @@
+// Where light that arrives goes: the beauty and the trackers, with one clamp for both. For the integrator's own files.
+#pragma once
+
+#include "render/integrator.h"
+
+namespace lightsieve {
+
+template <class Tracker>
+template <class Value>
+void Integrator<Tracker>::deposit(Terminal terminal, const Value& value) {
+    Color total;
+    const std::span<const PathGroup> groups = groups_.all();
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        total += groups[g].throughput * value(g);
+    if (is_black(total)) return;
+    if (!is_finite(total)) return drop(terminal.event);
+    const float scale = clamp_factor(total, n_scatter_);
+    out_->beauty += total * scale;
+    tracker_.add(terminal, value, scale);
+}
+
+template <class Tracker>
+template <class Value>
+void Integrator<Tracker>::deposit_scattered(Terminal terminal, const Value& value) {
+    Color total;
+    const std::span<const PathGroup> groups = groups_.all();
+    const auto scaled = [&](std::size_t g, std::size_t c) {
+        return value(g, c) * groups_.indirect(g);
+    };
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (std::size_t c = 0; c < n_channels_; ++c)
+            total += groups[g].throughput * scaled(g, c);
+    if (is_black(total)) return;
+    if (!is_finite(total)) return drop(terminal.event);
+    const float scale = clamp_factor(total, n_scatter_ + 1);
+    out_->beauty += total * scale;
+    tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, scaled, scale);
+}
+
+template <class Tracker>
+template <class Value>
+void Integrator<Tracker>::deposit_scattered_light(const SceneLight& light, const Value& value) {
+    const Terminal as_light{light.as_light, light.light_event},
+        as_background{light.as_background, light.background_event};
+    if (!light.is_skydome) return deposit_scattered(as_light, value);
+    if (light.common.aov_indirect) return deposit_scattered(as_background, value);
+    const auto is_seen = [&](std::size_t g, std::size_t c) {
+        return groups_[g].key.seen && channels_[c].record->makes_no_event;
+    };
+    deposit_scattered(as_light, [&](std::size_t g, std::size_t c) {
+        return is_seen(g, c) ? kBlack : value(g, c);
+    });
+    if (some_group_is_seen())
+        deposit_scattered(as_background, [&](std::size_t g, std::size_t c) {
+            return is_seen(g, c) ? value(g, c) : kBlack;
+        });
+}
+
+}  // namespace lightsieve

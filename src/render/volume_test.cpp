@@ -1,0 +1,223 @@
+// Volumes against closed forms: what is left of light, what is scattered once, what is emitted, and that nothing is lost.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/majorants.h"
+#include "render/testing/checks.h"
+
+namespace lightsieve::testing {
+namespace {
+
+/// A box of a volume around the origin, seen along -z by parallel rays.
+std::string slab(std::string_view shader, float half_thickness = 0.5F, float half_width = 50) {
+    return node("volume", "slab",
+                " min " + text_of(Vec3f{-half_width, -half_width, -half_thickness}) + "\n max " +
+                    text_of(Vec3f{half_width, half_width, half_thickness}) + "\n shader " +
+                    std::string(shader));
+}
+
+std::string smoke(std::string_view body) {
+    return node("standard_volume", "smoke", " emission_mode none\n " + std::string(body));
+}
+
+const std::string kFrontView = ortho_camera({0, 0, 5}, {0, 0, 0}, 1);
+/// A wall behind the slab that shines with radiance 1.
+const std::string kGlowingWall =
+    node("flat", "glow", " color 1 1 1") +
+    quad("wall", {-60, -60, -3}, {60, -60, -3}, {60, 60, -3}, {-60, 60, -3}, "glow");
+
+void expect_mean(const Picture& picture, const std::string& layer, Color truth,
+                 double slack = 1e-4) {
+    for (int c = 0; c < 3; ++c) {
+        const Estimate e = estimate(picture, layer, c);
+        EXPECT_NEAR(e.mean, truth[c], kZ * e.error + slack)
+            << layer << ", channel " << c << ", error " << e.error;
+    }
+}
+
+TEST(Volume, AbsorptionFollowsBeerAndLambert) {
+    // Twice the thickness of transparent_depth: the square of `transparent`.
+    const Picture picture =
+        render(frame_text(16, 16, 4, kFrontView) + kGlowingWall +
+               smoke("scatter 0\n transparent 0.5 0.8 0.25\n transparent_depth 0.5") +
+               slab("smoke"));
+    expect_mean(picture, "RGBA", {0.25F, 0.64F, 0.0625F});
+}
+
+TEST(Volume, OpacityIsWhatIsNotTransmitted) {
+    RenderOptions options = in_memory({"volume_opacity"});
+    const Picture picture = render(frame_text(8, 8, 2, kFrontView) +
+                                       smoke("transparent 0.5 0.8 0.25\n transparent_depth 1") +
+                                       slab("smoke"),
+                                   options);
+    expect_mean(picture, "volume_opacity", {0.5F, 0.2F, 0.75F}, 1e-5);
+    EXPECT_NEAR(picture.alpha("RGBA", 0), (0.5 + 0.2 + 0.75) / 3, 1e-5);
+}
+
+TEST(Volume, ScattersOnceAsTheClosedFormSays) {
+    // A sun behind the camera: light goes in and comes straight back out, so single scattering is
+    // albedo * p(-1) * E * (1 - exp(-2 s d)) / 2 for extinction s and thickness d.
+    const double s = 0.7, albedo = 0.6, g = 0.3;
+    const double phase = (1 - g * g) / (4 * M_PI * std::pow(1 + g * g + 2 * g, 1.5));
+    const double truth = albedo * phase * (1 - std::exp(-2 * s)) / 2;
+    const Picture picture = render(
+        frame_text(32, 32, 4, kFrontView) +
+            node("distant_light", "sun", " direction 0 0 -1") +
+            smoke("density 0.7\n scatter_color 0.6 0.6 0.6\n scatter_anisotropy 0.3") +
+            slab("smoke"),
+        in_memory({"volume RGB", "volume_direct RGB", "volume_indirect RGB"}));
+    expect_mean(picture, "volume", Color::grey(static_cast<float>(truth)));
+    expect_mean(picture, "RGBA", Color::grey(static_cast<float>(truth)));
+    EXPECT_TRUE(check_identical(picture, "volume", picture, "volume_direct"));
+    EXPECT_TRUE(check_black(picture, "volume_indirect"));
+}
+
+TEST(Volume, EmissionAddsUpAlongTheRay) {
+    // 3 a unit over one unit, absorbed on the way out: 3 (1 - exp(-2)) / 2.
+    const auto truth = static_cast<float>(3 * (1 - std::exp(-2.0)) / 2);
+    const Picture picture =
+        render(frame_text(32, 32, 4, kFrontView) +
+                   node("standard_volume", "smoke",
+                        " density 2\n scatter 0\n emission_mode density\n emission 1.5") +
+                   slab("smoke"),
+               in_memory({"emission RGB"}));
+    expect_mean(picture, "emission", Color::grey(truth));
+}
+
+TEST(Volume, WhiteFurnaceVanishes) {
+    // Albedo 1 in an even surrounding: nothing can be seen, whatever the phase function and the colour of the extinction.
+    const Picture picture = render(
+        frame_text(16, 16, 20, ortho_camera({0, 0, 5}, {0, 0, 0}, 1.5F),
+                   " GI_volume_depth 200\n GI_total_depth 200\n indirect_sample_clamp 1e30") +
+        node("skydome_light", "sky", "") +
+        smoke("scatter_color 1 1 1\n density 2\n transparent 0.5 0.2 0.36\n scatter_anisotropy "
+              "0.4\n scatter_secondary_anisotropy -0.3\n scatter_secondary_anisotropy_mix 0.25") +
+        sphere("ball", {0, 0, 0}, 1, "smoke", " step_size 0.1"));
+    for (int c = 0; c < 3; ++c) {
+        const Estimate e = estimate(picture, "RGBA", c);
+        EXPECT_LT(e.error, 0.005);
+        EXPECT_NEAR(e.mean, 1, 0.01);
+    }
+}
+
+TEST(Volume, OverlappingVolumesAddUp) {
+    const std::string two =
+        smoke("scatter 0\n transparent 0.5 0.5 0.5") +
+        node("standard_volume", "fog",
+             " emission_mode none\n scatter 0\n transparent 0.25 1 0.5") +
+        slab("smoke") +
+        sphere("ball", {0, 0, 0}, 0.5F, "fog", " step_size 1\n matrix 100 0 0 0  0 100 0 0  0 0 1 0  0 0 0 1");
+    const Picture picture = render(frame_text(16, 16, 6, kFrontView) + kGlowingWall + two);
+    expect_mean(picture, "RGBA", {0.125F, 0.5F, 0.25F}, 1e-3);
+}
+
+TEST(Volume, ShadowRaysAreWeakened) {
+    // A floor below a layer of fog, seen from below the fog: its sun has come through one unit of it.
+    const Picture picture = render(
+        frame_text(8, 8, 4, ortho_camera({0, 1, 0}, {0, 0, 0}, 0.5F, {0, 0, 1})) +
+        node("distant_light", "sun", " direction 0 -1 0\n intensity 3.14159265") +
+        lambert("clay", 1) + floor("ground", 0, 10, "clay") +
+        smoke("scatter 0\n transparent 0.3 0.6 0.9") +
+        node("volume", "layer", " min -50 2 -50\n max 50 3 50\n shader smoke"));
+    expect_mean(picture, "RGBA", {0.3F, 0.6F, 0.9F});
+}
+
+TEST(Volume, LightsMayIgnoreVolumes) {
+    const Picture picture = render(
+        frame_text(8, 8, 4, ortho_camera({0, 1, 0}, {0, 0, 0}, 0.5F, {0, 0, 1})) +
+        node("distant_light", "sun",
+             " direction 0 -1 0\n intensity 3.14159265\n cast_volumetric_shadows off") +
+        lambert("clay", 1) + floor("ground", 0, 10, "clay") +
+        smoke("scatter 0\n transparent 0.3 0.6 0.9") +
+        node("volume", "layer", " min -50 2 -50\n max 50 3 50\n shader smoke"));
+    expect_mean(picture, "RGBA", {1, 1, 1});
+}
+
+TEST(Volume, TheCameraMayStandInIt) {
+    const Picture picture =
+        render(frame_text(16, 16, 4, ortho_camera({0, 0, 0}, {0, 0, -1}, 1)) + kGlowingWall +
+               smoke("scatter 0\n transparent 0.25 0.25 0.25") + slab("smoke"));
+    expect_mean(picture, "RGBA", {0.5F, 0.5F, 0.5F});
+}
+
+TEST(Volume, GroupsAndAovsOfVolumesAddUp) {
+    const std::string text =
+        frame_text(12, 12, 4, kFrontView, " GI_volume_depth 3\n GI_diffuse_depth 2") +
+        node("standard_volume", "smoke",
+             " density 1.2\n scatter_color 0.9 0.7 0.5\n emission_mode density\n emission 0.1\n "
+             "label \"fog\"") +
+        slab("smoke") + lambert("clay", 0.7F) +
+        quad("wall", {-9, -9, -2}, {9, -9, -2}, {9, 9, -2}, {-9, 9, -2}, "clay") +
+        node("point_light", "key", " position 2 2 2\n intensity 10\n aov \"key\"") +
+        node("quad_light", "fill",
+             " vertices 4 1 VECTOR -2 3 -2 2 3 -2 2 3 2 -2 3 2\n intensity 20\n aov \"fill\"") +
+        node("skydome_light", "sky", " intensity 0.2");
+    const Picture picture =
+        render(text, in_memory({"direct RGB", "indirect RGB", "emission RGB", "background RGB",
+                                "diffuse RGB", "volume RGB", "volume_direct RGB",
+                                "volume_indirect RGB", "volume_key RGB", "volume_fill RGB",
+                                "volume_default RGB"},
+                               {"fog C<V.'fog'>.*", "fire C<O.'fog'>"}));
+    EXPECT_TRUE(check_sum(picture, "RGBA", {"direct", "indirect", "emission", "background"}));
+    EXPECT_TRUE(check_sum(picture, "RGBA", {"diffuse", "volume", "emission", "background"}));
+    EXPECT_TRUE(check_sum(picture, "volume", {"volume_direct", "volume_indirect"}));
+    EXPECT_TRUE(check_sum(picture, "volume", {"volume_key", "volume_fill", "volume_default"}));
+    EXPECT_TRUE(check_equal(picture, "volume", picture, "fog"));
+    EXPECT_TRUE(check_equal(picture, "emission", picture, "fire"));
+    for (const char* layer : {"volume_direct", "volume_indirect", "volume_key", "emission"})
+        EXPECT_TRUE(check_lit(picture, layer));
+}
+
+TEST(Volume, AlbedoProbesSeeWhatScatters) {
+    const Picture picture =
+        render(frame_text(32, 32, 4, kFrontView) +
+                   smoke("scatter_color 0.8 0.4 0.2\n transparent 0.5 0.5 0.5") + slab("smoke"),
+               in_memory({"volume_albedo RGB"}));
+    expect_mean(picture, "volume_albedo", {0.4F, 0.2F, 0.1F});
+}
+
+TEST(Volume, ASurfaceShaderInAContainerIsReported) {
+    const TestScene scene(frame_text(4, 4, 1, kFrontView) + lambert("clay", 0.7F) +
+                              sphere("ball", {0, 0, 0}, 1, "clay", " step_size 0.1"),
+                          in_memory(), {"says nothing of what is inside"});
+    EXPECT_TRUE(scene.scene().volumes.empty());
+    EXPECT_EQ(scene.scene().objects.size(), 1U);
+}
+
+TEST(MajorantWalk, CoversTheRayOnceInTheRightCells) {
+    MajorantGrid grid({{-1, -2, 0}, {3, 2, 5}}, {4, 3, 5});
+    for (int z = 0; z < 5; ++z)
+        for (int y = 0; y < 3; ++y)
+            for (int x = 0; x < 4; ++x)
+                grid.at(x, y, z) = static_cast<float>(1 + x + 10 * y + 100 * z);
+    const Vec3f origin{-3, -2.5F, 7}, direction{1.1F, 0.9F, -1.3F};
+    float t0 = 0, t1 = kInfinity;
+    for (int a = 0; a < 3; ++a) {
+        const float near = ((direction[a] > 0 ? grid.box().lower : grid.box().upper)[a] - origin[a]) /
+                           direction[a];
+        const float far = ((direction[a] > 0 ? grid.box().upper : grid.box().lower)[a] - origin[a]) /
+                          direction[a];
+        t0 = std::max(t0, near);
+        t1 = std::min(t1, far);
+    }
+    ASSERT_LT(t0, t1);
+    MajorantWalk walk(grid, origin, direction, t0, t1);
+    float reached = t0;
+    int n = 0;
+    while (walk.next()) {
+        EXPECT_EQ(walk.begin(), reached);
+        reached = walk.end();
+        if (walk.end() - walk.begin() < 1e-4F) continue;
+        const Vec3f p = origin + direction * ((walk.begin() + walk.end()) / 2);
+        const int x = static_cast<int>(std::floor(p.x + 1)), y = static_cast<int>(std::floor((p.y + 2) * 3 / 4)),
+                  z = static_cast<int>(std::floor(p.z));
+        EXPECT_EQ(walk.majorant(), grid.at(x, y, z));
+        ++n;
+    }
+    EXPECT_EQ(reached, t1);
+    EXPECT_GE(n, 4);
+}
+
+}  // namespace
+}  // namespace lightsieve::testing
