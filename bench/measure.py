@@ -30,6 +30,7 @@ class Job:
         threads: 0: as many as the machine has.
         spp: samples a pixel; 0: as the scene says.
         roulette: scatterings before Russian roulette; negative: never.
+        noise: whether to measure the variance, too.
     """
 
     scene: str
@@ -38,6 +39,7 @@ class Job:
     threads: int = 0
     spp: int = 0
     roulette: int = -1
+    noise: bool = False
 
 
 @dataclass
@@ -54,6 +56,7 @@ class Measured:
         start_mb: the same before the scene was read [MB].
         compile_seconds: reading and compiling [s].
         n_aovs: expressions with their groups.
+        variance: of a pixel's channel, from two renders with other seeds; 0 if it was not asked for.
     """
 
     seconds: float
@@ -65,6 +68,7 @@ class Measured:
     start_mb: float
     compile_seconds: float
     n_aovs: int
+    variance: float = 0
 
 
 def peak_mb() -> float:
@@ -111,6 +115,20 @@ def beauty(outcome: object) -> np.ndarray:
     return outcome.layers[0][1][..., :3]  # type: ignore[attr-defined,no-any-return]
 
 
+def variance(job: Job) -> float:
+    """Half the mean squared difference of two renders; the brightest 0.1 % of the pixels are left out."""
+    a, b = (
+        beauty(
+            compile_scene(  # type: ignore[attr-defined]
+                job.scene, [], threads=job.threads, spp=job.spp, roulette=job.roulette, seed=seed
+            ).render()
+        )
+        for seed in (11, 12)
+    )
+    squares = np.sort(0.5 * ((a - b) ** 2).mean(axis=2).ravel())
+    return float(squares[: int(0.999 * squares.size)].mean())
+
+
 def measure(job: Job) -> list[Measured]:
     """Renders every variant `rounds` times, in turn."""
     out: list[Measured] = []
@@ -134,6 +152,8 @@ def measure(job: Job) -> list[Measured]:
             m.cpu_seconds = min(m.cpu_seconds, spent)
             m.all_cpu_seconds.append(spent)
             m.samples, m.rays, m.peak_mb = outcome.samples, outcome.rays, peak_mb()
+    if job.noise:
+        out[0].variance = variance(job)
     return out
 
 

@@ -81,6 +81,7 @@ def options(width: int, height: int, samples: int, depth: int) -> str:
             GI_diffuse_depth=depth,
             GI_specular_depth=depth,
             GI_transmission_depth=depth,
+            GI_volume_depth=depth,
             GI_total_depth=depth,
             indirect_sample_clamp=1e30,
             outputs=Array("STRING", 1, ['"RGBA RGBA filter driver"']),

@@ -102,8 +102,7 @@ void ClosureSet::emit(int lobe, Color radiance) {
     emissions_[n_emissions_++] = {total, &record(lobe)};
 }
 
-Medium ClosureSet::medium(int lobe, Color extinction, Color scattering,
-                          const Phase& phase) const {
+Medium ClosureSet::medium(int lobe, Color extinction, Color scattering, const Phase& phase) const {
     return {valid_weight(extinction), lobe < 0 ? kBlack : valid_weight(scattering), phase,
             lobe < 0 ? nullptr : &record(lobe)};
 }

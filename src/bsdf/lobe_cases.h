@@ -191,8 +191,7 @@ inline GgxAlpha random_stretched_alpha(Random& random) {
                          const float first = r.between(-0.9F, 0.9F);
                          return PhaseLobe(Phase(first, r.between(-0.9F, 0.9F), r.unit()));
                      },
-                     true,
-                     [](Random& r) { return PhaseLobe(Phase(r.between(-0.9F, 0.9F))); },
+                     true, [](Random& r) { return PhaseLobe(Phase(r.between(-0.9F, 0.9F))); },
                      1e-4F});
     return cases;
 }

@@ -12,7 +12,7 @@ namespace lightsieve {
 
 /// Shape of the scattering of a medium. Mean cosines in (-1, 1).
 struct Phase {
-    float anisotropy = 0;            ///< mean cosine of the first lobe: above 0 light goes on forward
+    float anisotropy = 0;  ///< mean cosine of the first lobe: above 0 light goes on forward
     float secondary_anisotropy = 0;  ///< of the second
     float mix = 0;                   ///< share of the second lobe, [0,1]
 

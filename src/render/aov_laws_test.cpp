@@ -46,7 +46,8 @@ class AovLaws : public ::testing::TestWithParam<const char*> {
     const Picture& picture() { return picture_of(GetParam()); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AovLaws, ::testing::Values("laws_lobes.ass", "laws_room.ass", "laws_media.ass"));
+INSTANTIATE_TEST_SUITE_P(Scenes, AovLaws,
+                         ::testing::Values("laws_lobes.ass", "laws_room.ass", "laws_media.ass"));
 
 TEST_P(AovLaws, AdditiveSetsAddUpToTheBeauty) {
     for (const auto& set : lpe::additive_sets(lpe::BuiltinTable::Reference))

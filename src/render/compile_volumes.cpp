@@ -35,10 +35,10 @@ bool Compiler::add_volume(const NodeInstance& node, const NodeInstance& source,
         return is_volume;
     }
     if (std::holds_alternative<CurveList>(object.geometry->data)) {
-        diagnostics_.warning(Code::ShapeBad,
-                             "curves have no inside: the volume of \"" + node.name().str() +
-                                 "\" is left out",
-                             node.where("step_size"));
+        diagnostics_.warning(
+            Code::ShapeBad,
+            "curves have no inside: the volume of \"" + node.name().str() + "\" is left out",
+            node.where("step_size"));
         return true;
     }
     SceneVolume volume;
@@ -55,10 +55,10 @@ void Compiler::make_atmosphere() {
     const ShaderProgram* program = program_for(*ref->node);
     if (program == nullptr) return;
     if (!fills_volumes(*program)) {
-        diagnostics_.warning(Code::ParamPending,
-                             "a " + program->type().name.str() +
-                                 " as atmosphere is not supported; there is none",
-                             graph_.options()->where("atmosphere"), "use an atmosphere_volume");
+        diagnostics_.warning(
+            Code::ParamPending,
+            "a " + program->type().name.str() + " as atmosphere is not supported; there is none",
+            graph_.options()->where("atmosphere"), "use an atmosphere_volume");
         return;
     }
     scene_->atmosphere = program;
@@ -92,8 +92,7 @@ void Compiler::check_channels(const NodeInstance& node, const SceneVolume& volum
                 continue;
             diagnostics_.warning(Code::UnknownGrid,
                                  "the volume \"" + node.name().str() + "\" has no grid \"" +
-                                     name.str() + "\": " + param.name.str() +
-                                     " counts as 0 there",
+                                     name.str() + "\": " + param.name.str() + " counts as 0 there",
                                  node.where("filename"), "it has " + known);
         }
     }

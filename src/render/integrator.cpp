@@ -468,8 +468,7 @@ template <class Tracker>
 void Integrator<Tracker>::add_emission(float factor) {
     for (const Emission& e : closures_.emissions())
         deposit({e.record->terminal, e.record->event}, [&](std::size_t g) {
-            return groups_[g].key.lights_only ? kBlack
-                                              : e.radiance * groups_.indirect(g) * factor;
+            return groups_[g].key.lights_only ? kBlack : e.radiance * groups_.indirect(g) * factor;
         });
 }
 
@@ -616,8 +615,7 @@ auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index
     Ray ray{start_of_ray(surface, sample.wi), sample.wi, 0, sample.distance * (1 - kShadowEpsilon),
             surface.at.time};
     Visibility out = visibility_along(ray, object.self_shadows ? nullptr : &object);
-    if (!scene_.volumes.empty() && light.common.cast_volumetric_shadows &&
-        !is_black(out.tinted)) {
+    if (!scene_.volumes.empty() && light.common.cast_volumetric_shadows && !is_black(out.tinted)) {
         const Color left = media_transmittance(ray);
         out.straight *= left;
         out.tinted *= left;

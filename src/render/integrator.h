@@ -137,15 +137,15 @@ class Integrator {
     /// A part of a ray in a medium that is the same everywhere.
     struct AlongRay {
         Medium medium;
-        float start = 0;            ///< to where the path's throughput is known
-        float begin = 0, end = 0;   ///< of the part
-        float collisions = 0;       ///< bound by which they are drawn; 0: there are none
+        float start = 0;                      ///< to where the path's throughput is known
+        float begin = 0, end = 0;             ///< of the part
+        float collisions = 0;                 ///< bound by which they are drawn; 0: there are none
         const SceneObject* object = nullptr;  ///< the volume; null: the atmosphere
     };
     void add_haze(const Ray& ray, float to);
     void fade_in_haze(float from, float to);
     void add_fog(const Ray& ray, float to);
-    void add_light_along(const Ray& ray, const AlongRay& part, int i, int n);
+    void add_light_along(const Ray& ray, const AlongRay& part, Vec2f u, Vec2f on_light, int n);
     [[nodiscard]] AlongRay along(const VolumeInterval& interval, float to);
     [[nodiscard]] float share_of_collisions(const Ray& ray, const AlongRay& part, float t,
                                             std::uint32_t light, float pick) const;
@@ -235,20 +235,22 @@ class Integrator {
     bool monochromatic_ = false;                   ///< it has taken it
     MediaPath media_;                              ///< along the current ray
     float media_t_ = 0;                            ///< how far the ray has come through them
+    /// Of the segment: 0 the first collision; 1 point along the ray and choice of light; 2 point on that light.
+    std::array<Vec2f, 4> media_points_;
     /// The atmosphere along the current ray.
     struct Haze {
         Medium medium;
         float far = 0;  ///< where it ends for rays without end
     };
     Haze haze_;
-    std::uint32_t n_shadow_rays_ = 0;              ///< through media: each draws numbers of its own
-    Surface medium_vertex_;                        ///< where the path scattered in a medium
+    std::uint32_t n_shadow_rays_ = 0;  ///< through media: each draws numbers of its own
+    Surface medium_vertex_;            ///< where the path scattered in a medium
     /// The part of the ray where it did, if points along it were asked for light, too.
     std::optional<AlongRay> vertex_part_;
     Ray vertex_ray_;
-    float pass_probability_ = 0;                   ///< of going straight through
-    bool transmissive_ = false;                    ///< some lobe sends light to the other side
-    bool all_delta_ = false;                       ///< no light sample can get through any lobe
+    float pass_probability_ = 0;  ///< of going straight through
+    bool transmissive_ = false;   ///< some lobe sends light to the other side
+    bool all_delta_ = false;      ///< no light sample can get through any lobe
 };
 
 extern template class Integrator<AovTracker>;

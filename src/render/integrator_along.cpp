@@ -13,7 +13,11 @@
 namespace lightsieve {
 namespace {
 
-constexpr std::uint32_t kAlongStream = 0x1f83d9abU;
+/// An irrational step (the plastic number's inverse), so that turned points do not line up.
+constexpr float kTurn = 0.7548776662F;
+
+/// u, shifted around in [0,1).
+float turned(float u, float by) { return std::min(u + by - std::floor(u + by), kOneMinusEpsilon); }
 
 /// Haze belongs to no shape: every light shines into it and every shape casts shadows.
 const SceneObject& everywhere() {
@@ -30,8 +34,7 @@ class Equiangular {
         foot_ = dot(light.center() - ray.origin, ray.direction);
         // Nearer than the size of the light the angle says nothing any more.
         const float least = std::max(0.5F * length(light.size()), 1e-4F * (end - begin));
-        distance_ =
-            std::max(length(ray.origin + ray.direction * foot_ - light.center()), least);
+        distance_ = std::max(length(ray.origin + ray.direction * foot_ - light.center()), least);
         a_ = std::atan((begin - foot_) / distance_);
         b_ = std::atan((end - foot_) / distance_);
     }
@@ -58,41 +61,38 @@ float Integrator<Tracker>::share_of_collisions(const Ray& ray, const AlongRay& p
     if (part.collisions == 0) return 0;
     const float by_light = scene_.finite_lights.probability(light);
     if (!(by_light > 0)) return 1;
-    const Equiangular points(ray, part.begin, part.end,
-                             scene_.lights[light].light->bounds().box);
+    const Equiangular points(ray, part.begin, part.end, scene_.lights[light].light->bounds().box);
     const float along = by_light * points.pdf(t);
-    const float colliding =
-        pick * part.collisions * std::exp(-part.collisions * (t - part.begin));
+    const float colliding = pick * part.collisions * std::exp(-part.collisions * (t - part.begin));
     return colliding + along > 0 ? colliding / (colliding + along) : 0;
 }
 
 /// Asks one light from one of n points along a part of a ray.
+///
+/// u         x: the point, y: the light
+/// on_light  the point on the light
 template <class Tracker>
-void Integrator<Tracker>::add_light_along(const Ray& ray, const AlongRay& part, int i, int n) {
-    const std::uint32_t stream =
-        hash_combine(hash_combine(segment_, kAlongStream), n_shadow_rays_++);
-    const auto number = [&](std::uint32_t k) {
-        return sampler_->random(hash_combine(stream, k));
-    };
-    const Distribution1D::Sample picked = scene_.finite_lights.sample(number(1));
+void Integrator<Tracker>::add_light_along(const Ray& ray, const AlongRay& part, Vec2f u,
+                                          Vec2f on_light, int n) {
+    const Distribution1D::Sample picked = scene_.finite_lights.sample(u.y);
     const auto index = static_cast<std::uint32_t>(picked.index);
     const float pick = scene_.finite_lights.probability(picked.index);
     const SceneLight& light = scene_.lights[index];
     const Equiangular points(ray, part.begin, part.end, light.light->bounds().box);
-    const float t = points.sample((static_cast<float>(i) + number(0)) / static_cast<float>(n));
+    const float t = points.sample(u.x);
     const float pdf = pick * points.pdf(t) * static_cast<float>(n);
     Surface vertex;
     vertex.in_medium = true;
     vertex.at.position = ray.origin + ray.direction * t;
     vertex.at.time = ray.time;
     vertex.object = part.object != nullptr ? part.object : &everywhere();
-    const LightSample sample =
-        light.light->sample(vertex.at.position, {number(2), number(3)});
+    const LightSample sample = light.light->sample(vertex.at.position, on_light);
     if (!(pdf > 0) || !(sample.pdf > 0) || is_black(sample.radiance)) return;
     const float phase = PhaseLobe(part.medium.phase).eval(-ray.direction, sample.wi).pdf;
     float weight = 1;
     if (part.collisions > 0) {
-        const float asked = vertex.object->lights->probability(vertex.at.position, {0, 0, 0}, index);
+        const float asked =
+            vertex.object->lights->probability(vertex.at.position, {0, 0, 0}, index);
         if (!(asked > 0)) return;  // not in the volume's light group
         weight = 1 - share_of_collisions(ray, part, t, index, asked);
         // Rays that the phase function sends find the light, too.
@@ -126,7 +126,7 @@ void Integrator<Tracker>::add_fog(const Ray& ray, float to) {
     for (const VolumeInterval& interval : media_.parts()) {
         const AlongRay part = along(interval, to);
         if (part.begin < part.end && part.collisions > 0 && part.medium.scatters())
-            add_light_along(ray, part, 0, 1);
+            add_light_along(ray, part, media_points_[1], media_points_[2], 1);
     }
 }
 
@@ -165,8 +165,13 @@ void Integrator<Tracker>::add_haze(const Ray& ray, float to) {
     part.start = part.begin = media_t_;
     part.end = haze_.far;
     const int n = n_scatter_ == 0 ? scene_.haze.samples : 1;
-    for (int i = 0; i < n; ++i)
-        add_light_along(ray, part, i, n);
+    // One well spread point for each of n parts of the ray; their other numbers are turned against each other.
+    for (int i = 0; i < n; ++i) {
+        const auto share = static_cast<float>(i) / static_cast<float>(n);
+        const Vec2f u = media_points_[1], on = media_points_[2];
+        add_light_along(ray, part, {share + u.x / static_cast<float>(n), turned(u.y, share)},
+                        {turned(on.x, share), turned(on.y, share * kTurn)}, n);
+    }
 }
 
 /// What the haze takes away between two points of the ray.
@@ -181,13 +186,14 @@ void Integrator<Tracker>::fade_in_haze(float from, float to) {
 }
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
-#define LIGHTSIEVE_ALONG(Tracker)                                                              \
-    template float Integrator<Tracker>::share_of_collisions(const Ray&, const AlongRay&, float, \
-                                                            std::uint32_t, float) const;       \
-    template void Integrator<Tracker>::add_light_along(const Ray&, const AlongRay&, int, int); \
-    template void Integrator<Tracker>::add_fog(const Ray&, float);                             \
-    template auto Integrator<Tracker>::along(const VolumeInterval&, float) -> AlongRay;        \
-    template void Integrator<Tracker>::add_haze(const Ray&, float);                            \
+#define LIGHTSIEVE_ALONG(Tracker)                                                                 \
+    template float Integrator<Tracker>::share_of_collisions(const Ray&, const AlongRay&, float,   \
+                                                            std::uint32_t, float) const;          \
+    template void Integrator<Tracker>::add_light_along(const Ray&, const AlongRay&, Vec2f, Vec2f, \
+                                                       int);                                      \
+    template void Integrator<Tracker>::add_fog(const Ray&, float);                                \
+    template auto Integrator<Tracker>::along(const VolumeInterval&, float) -> AlongRay;           \
+    template void Integrator<Tracker>::add_haze(const Ray&, float);                               \
     template void Integrator<Tracker>::fade_in_haze(float, float);
 LIGHTSIEVE_ALONG(AovTracker)
 LIGHTSIEVE_ALONG(LogTracker)

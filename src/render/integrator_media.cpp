@@ -15,6 +15,8 @@ namespace {
 /// Streams of random numbers of media, apart from those of the path.
 constexpr std::uint32_t kMediaStream = 0x3c6ef372U, kShadowStream = 0xa54ff53aU,
                         kOpacityStream = 0x510e527fU;
+/// The sampler's pairs of dimensions for media, four a segment, past those of any path.
+constexpr std::uint32_t kMediaPairs = 1U << 16U;
 /// A path that carries less than this share of what it began with goes on by chance.
 constexpr float kFaint = 0.02F;
 
@@ -25,11 +27,14 @@ float weighted(Color odds, Color c) { return odds.r * c.r + odds.g * c.g + odds.
 
 template <class Tracker>
 void Integrator<Tracker>::begin_media(const Ray& ray, float t_end) {
+    const std::optional<BodyMedium> body = interiors_.scattering();
+    media_t_ = ray.t_min;
+    if (scene_.volumes.empty() && scene_.atmosphere == nullptr && !body) return media_.clear();
+    media_points_ = sampler_->at2x4(kMediaPairs + segment_ * 4);
     Ray part = ray;
     part.t_max = t_end;
-    media_.begin(scene_.volumes, part, ray_mask(), interiors_.scattering(), *sampler_,
-                 hash_combine(segment_, kMediaStream));
-    media_t_ = ray.t_min;
+    media_.begin(scene_.volumes, part, ray_mask(), body, *sampler_,
+                 hash_combine(segment_, kMediaStream), media_points_[0]);
 }
 
 template <class Tracker>
@@ -153,12 +158,12 @@ Color Integrator<Tracker>::media_transmittance(const Ray& ray) {
 }
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
-#define LIGHTSIEVE_MEDIA(Tracker)                                                                \
-    template void Integrator<Tracker>::begin_media(const Ray&, float);                           \
-    template auto Integrator<Tracker>::travel(const Ray&, float) -> Passage;                     \
-    template auto Integrator<Tracker>::collide(const Ray&, const Collision&) -> Passage;         \
-    template void Integrator<Tracker>::scatter_in_medium(const Ray&, const Collision&, Color);   \
-    template void Integrator<Tracker>::add_media_opacity(const Ray&, float);                     \
+#define LIGHTSIEVE_MEDIA(Tracker)                                                              \
+    template void Integrator<Tracker>::begin_media(const Ray&, float);                         \
+    template auto Integrator<Tracker>::travel(const Ray&, float) -> Passage;                   \
+    template auto Integrator<Tracker>::collide(const Ray&, const Collision&) -> Passage;       \
+    template void Integrator<Tracker>::scatter_in_medium(const Ray&, const Collision&, Color); \
+    template void Integrator<Tracker>::add_media_opacity(const Ray&, float);                   \
     template Color Integrator<Tracker>::media_transmittance(const Ray&);
 LIGHTSIEVE_MEDIA(AovTracker)
 LIGHTSIEVE_MEDIA(LogTracker)

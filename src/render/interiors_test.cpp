@@ -7,7 +7,9 @@ namespace {
 
 const char kGlass = 0, kWater = 0, kIce = 0;
 
-Interior body(float ior, int priority) { return {{Color::grey(ior), {}, {}, nullptr}, ior, priority, true}; }
+Interior body(float ior, int priority) {
+    return {{Color::grey(ior), {}, {}, nullptr}, ior, priority, true};
+}
 
 TEST(Interiors, HigherPriorityIsThere) {
     const Interior glass = body(1.5F, 2), water = body(1.33F, 1);

@@ -15,10 +15,10 @@ MajorantGrid::MajorantGrid(const Box3f& box, std::array<int, 3> size)
 Box3f MajorantGrid::cell(int x, int y, int z) const {
     const Vec3f extent = box_.size();
     const auto corner = [&](int i, int j, int k) {
-        return box_.lower + Vec3f{extent.x * (static_cast<float>(i) / static_cast<float>(size_[0])),
-                                  extent.y * (static_cast<float>(j) / static_cast<float>(size_[1])),
-                                  extent.z *
-                                      (static_cast<float>(k) / static_cast<float>(size_[2]))};
+        return box_.lower +
+               Vec3f{extent.x * (static_cast<float>(i) / static_cast<float>(size_[0])),
+                     extent.y * (static_cast<float>(j) / static_cast<float>(size_[1])),
+                     extent.z * (static_cast<float>(k) / static_cast<float>(size_[2]))};
     };
     return {corner(x, y, z), corner(x + 1, y + 1, z + 1)};
 }

@@ -15,11 +15,12 @@ constexpr std::uint32_t kMaxCollisions = 1U << 20U;
 
 void MediaPath::begin(std::span<const SceneVolume> volumes, const Ray& ray, std::uint32_t mask,
                       const std::optional<BodyMedium>& body, const Sampler& sampler,
-                      std::uint32_t stream) {
+                      std::uint32_t stream, Vec2f first) {
     intervals_.clear();
     flights_.clear();
     sampler_ = &sampler;
     stream_ = stream;
+    first_ = first;
     count_ = 0;
     current_ = SIZE_MAX;
     for (const SceneVolume& volume : volumes)
@@ -108,7 +109,8 @@ Color estimate_transmittance(std::span<const SceneVolume> volumes, const Ray& ra
                 look_into(*part.volume, ray.origin + ray.direction * t, -ray.direction, ray.time,
                           RayType::Shadow, scratch);
                 left *= kWhite - scratch.extinction() * (1 / walk.majorant());
-                const float most = std::max({std::abs(left.r), std::abs(left.g), std::abs(left.b)});
+                const float most =
+                    std::max({std::abs(left.r), std::abs(left.g), std::abs(left.b)});
                 if (!(most > 0)) return kBlack;
                 if (most >= kFaint) continue;
                 if (number() >= most) return kBlack;

@@ -38,10 +38,16 @@ class MediaPath {
     ///
     /// mask     volumes with a common bit of visibility are met
     /// body     the body that the ray is inside of, if its medium scatters
-    /// stream   numbers of this ray are drawn from it
+    /// stream   numbers of this ray are drawn from it, after
+    /// first    the first two, which are worth well spread points
     void begin(std::span<const SceneVolume> volumes, const Ray& ray, std::uint32_t mask,
-               const std::optional<BodyMedium>& body, const Sampler& sampler,
-               std::uint32_t stream);
+               const std::optional<BodyMedium>& body, const Sampler& sampler, std::uint32_t stream,
+               Vec2f first);
+    /// No ray: nothing to collide with.
+    void clear() {
+        intervals_.clear();
+        flights_.clear();
+    }
     /// Where the ray is in volumes.
     [[nodiscard]] std::span<const VolumeInterval> parts() const { return intervals_; }
     /// Whether there is anything to collide with on the ray.
@@ -49,7 +55,10 @@ class MediaPath {
     /// The next tentative collision before `to`, or nothing. Going on after one makes it a null collision.
     [[nodiscard]] std::optional<Collision> next(float to);
     /// A number for decisions at the collision.
-    [[nodiscard]] float number() { return sampler_->random(hash_combine(stream_, count_++)); }
+    [[nodiscard]] float number() {
+        const std::uint32_t i = count_++;
+        return i == 0 ? first_.x : i == 1 ? first_.y : sampler_->random(hash_combine(stream_, i));
+    }
 
   private:
     /// Collisions with one volume in one interval.
@@ -66,6 +75,7 @@ class MediaPath {
     std::vector<VolumeInterval> intervals_;  ///< kept: no allocation after the first few rays
     std::vector<Flight> flights_;
     const Sampler* sampler_ = nullptr;
+    Vec2f first_;
     std::uint32_t stream_ = 0, count_ = 0;
     std::size_t current_ = SIZE_MAX;  ///< flight of the last collision
 };

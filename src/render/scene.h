@@ -73,10 +73,10 @@ class Scene {
     std::vector<SceneVolume> volumes;
     /// Lights of finite distance by power, index as in `lights`; only where media are. Without cells: there are none.
     Distribution1D finite_lights;
-    std::unique_ptr<Accel> accel;                ///< shapes
-    std::unique_ptr<Accel> light_accel;          ///< area lights; null if there are none
-    const ShaderProgram* background = nullptr;   ///< options.background
-    const ShaderProgram* atmosphere = nullptr;   ///< options.atmosphere
+    std::unique_ptr<Accel> accel;               ///< shapes
+    std::unique_ptr<Accel> light_accel;         ///< area lights; null if there are none
+    const ShaderProgram* background = nullptr;  ///< options.background
+    const ShaderProgram* atmosphere = nullptr;  ///< options.atmosphere
     /// What the atmosphere needs of the scene.
     struct HazeScene {
         Box3f bounds;     ///< of shapes and lights

@@ -171,7 +171,8 @@ class MajorantMaker {
         if (volume_.homogeneous) return {1, 1, 1};
         const Vec3f extent = box.size();
         const float longest = std::max({extent.x, extent.y, extent.z});
-        float width = longest / static_cast<float>(grids_ != nullptr ? kMostCells : kTexturedCells);
+        float width =
+            longest / static_cast<float>(grids_ != nullptr ? kMostCells : kTexturedCells);
         if (grids_ != nullptr)
             for (const VolumeGrids::Info& info : grids_->grids())
                 width = std::max(width, info.voxel_size * kVoxelsPerCell);
@@ -184,9 +185,9 @@ class MajorantMaker {
     [[nodiscard]] float bound(const Box3f& cell) {
         // Emission should be met about as often as scattering in a cell that is crossed the short way.
         const Vec3f size = cell.size();
-        const float width = std::max({length(place_.vector({size.x, 0, 0})),
-                                      length(place_.vector({0, size.y, 0})),
-                                      length(place_.vector({0, 0, size.z}))});
+        const float width =
+            std::max({length(place_.vector({size.x, 0, 0})), length(place_.vector({0, size.y, 0})),
+                      length(place_.vector({0, 0, size.z}))});
         std::optional<CellLookup> lookup;
         if (grids_ != nullptr) lookup.emplace(*grids_, cell);
         const VolumeLookup* channels = lookup ? &*lookup : nullptr;
@@ -206,8 +207,8 @@ class MajorantMaker {
     }
 
     void ask(Vec3f object_position, const VolumeLookup* channels) {
-        ShadePoint at = shade_point(volume_, place_.point(object_position), {0, 0, 1}, 0,
-                                    RayType::Camera);
+        ShadePoint at =
+            shade_point(volume_, place_.point(object_position), {0, 0, 1}, 0, RayType::Camera);
         at.volume = channels;
         said_.begin_volume(at.wo);
         volume_.shader().closures(at, said_);

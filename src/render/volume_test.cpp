@@ -1,8 +1,12 @@
 // Volumes against closed forms: what is left of light, what is scattered once, what is emitted, and that nothing is lost.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include "core/blackbody.h"
+#include "io/volume_grid.h"
 #include "render/majorants.h"
 #include "render/testing/checks.h"
 
@@ -38,19 +42,18 @@ void expect_mean(const Picture& picture, const std::string& layer, Color truth,
 
 TEST(Volume, AbsorptionFollowsBeerAndLambert) {
     // Twice the thickness of transparent_depth: the square of `transparent`.
-    const Picture picture =
-        render(frame_text(16, 16, 4, kFrontView) + kGlowingWall +
-               smoke("scatter 0\n transparent 0.5 0.8 0.25\n transparent_depth 0.5") +
-               slab("smoke"));
+    const Picture picture = render(
+        frame_text(16, 16, 4, kFrontView) + kGlowingWall +
+        smoke("scatter 0\n transparent 0.5 0.8 0.25\n transparent_depth 0.5") + slab("smoke"));
     expect_mean(picture, "RGBA", {0.25F, 0.64F, 0.0625F});
 }
 
 TEST(Volume, OpacityIsWhatIsNotTransmitted) {
     RenderOptions options = in_memory({"volume_opacity"});
-    const Picture picture = render(frame_text(8, 8, 2, kFrontView) +
-                                       smoke("transparent 0.5 0.8 0.25\n transparent_depth 1") +
-                                       slab("smoke"),
-                                   options);
+    const Picture picture =
+        render(frame_text(8, 8, 2, kFrontView) +
+                   smoke("transparent 0.5 0.8 0.25\n transparent_depth 1") + slab("smoke"),
+               options);
     expect_mean(picture, "volume_opacity", {0.5F, 0.2F, 0.75F}, 1e-5);
     EXPECT_NEAR(picture.alpha("RGBA", 0), (0.5 + 0.2 + 0.75) / 3, 1e-5);
 }
@@ -62,8 +65,7 @@ TEST(Volume, ScattersOnceAsTheClosedFormSays) {
     const double phase = (1 - g * g) / (4 * M_PI * std::pow(1 + g * g + 2 * g, 1.5));
     const double truth = albedo * phase * (1 - std::exp(-2 * s)) / 2;
     const Picture picture = render(
-        frame_text(32, 32, 4, kFrontView) +
-            node("distant_light", "sun", " direction 0 0 -1") +
+        frame_text(32, 32, 4, kFrontView) + node("distant_light", "sun", " direction 0 0 -1") +
             smoke("density 0.7\n scatter_color 0.6 0.6 0.6\n scatter_anisotropy 0.3") +
             slab("smoke"),
         in_memory({"volume RGB", "volume_direct RGB", "volume_indirect RGB"}));
@@ -102,35 +104,35 @@ TEST(Volume, WhiteFurnaceVanishes) {
 }
 
 TEST(Volume, OverlappingVolumesAddUp) {
-    const std::string two =
-        smoke("scatter 0\n transparent 0.5 0.5 0.5") +
-        node("standard_volume", "fog",
-             " emission_mode none\n scatter 0\n transparent 0.25 1 0.5") +
-        slab("smoke") +
-        sphere("ball", {0, 0, 0}, 0.5F, "fog", " step_size 1\n matrix 100 0 0 0  0 100 0 0  0 0 1 0  0 0 0 1");
+    const std::string two = smoke("scatter 0\n transparent 0.5 0.5 0.5") +
+                            node("standard_volume", "fog",
+                                 " emission_mode none\n scatter 0\n transparent 0.25 1 0.5") +
+                            slab("smoke") +
+                            sphere("ball", {0, 0, 0}, 0.5F, "fog",
+                                   " step_size 1\n matrix 100 0 0 0  0 100 0 0  0 0 1 0  0 0 0 1");
     const Picture picture = render(frame_text(16, 16, 6, kFrontView) + kGlowingWall + two);
     expect_mean(picture, "RGBA", {0.125F, 0.5F, 0.25F}, 1e-3);
 }
 
 TEST(Volume, ShadowRaysAreWeakened) {
     // A floor below a layer of fog, seen from below the fog: its sun has come through one unit of it.
-    const Picture picture = render(
-        frame_text(8, 8, 4, ortho_camera({0, 1, 0}, {0, 0, 0}, 0.5F, {0, 0, 1})) +
-        node("distant_light", "sun", " direction 0 -1 0\n intensity 3.14159265") +
-        lambert("clay", 1) + floor("ground", 0, 10, "clay") +
-        smoke("scatter 0\n transparent 0.3 0.6 0.9") +
-        node("volume", "layer", " min -50 2 -50\n max 50 3 50\n shader smoke"));
+    const Picture picture =
+        render(frame_text(8, 8, 4, ortho_camera({0, 1, 0}, {0, 0, 0}, 0.5F, {0, 0, 1})) +
+               node("distant_light", "sun", " direction 0 -1 0\n intensity 3.14159265") +
+               lambert("clay", 1) + floor("ground", 0, 10, "clay") +
+               smoke("scatter 0\n transparent 0.3 0.6 0.9") +
+               node("volume", "layer", " min -50 2 -50\n max 50 3 50\n shader smoke"));
     expect_mean(picture, "RGBA", {0.3F, 0.6F, 0.9F});
 }
 
 TEST(Volume, LightsMayIgnoreVolumes) {
-    const Picture picture = render(
-        frame_text(8, 8, 4, ortho_camera({0, 1, 0}, {0, 0, 0}, 0.5F, {0, 0, 1})) +
-        node("distant_light", "sun",
-             " direction 0 -1 0\n intensity 3.14159265\n cast_volumetric_shadows off") +
-        lambert("clay", 1) + floor("ground", 0, 10, "clay") +
-        smoke("scatter 0\n transparent 0.3 0.6 0.9") +
-        node("volume", "layer", " min -50 2 -50\n max 50 3 50\n shader smoke"));
+    const Picture picture =
+        render(frame_text(8, 8, 4, ortho_camera({0, 1, 0}, {0, 0, 0}, 0.5F, {0, 0, 1})) +
+               node("distant_light", "sun",
+                    " direction 0 -1 0\n intensity 3.14159265\n cast_volumetric_shadows off") +
+               lambert("clay", 1) + floor("ground", 0, 10, "clay") +
+               smoke("scatter 0\n transparent 0.3 0.6 0.9") +
+               node("volume", "layer", " min -50 2 -50\n max 50 3 50\n shader smoke"));
     expect_mean(picture, "RGBA", {1, 1, 1});
 }
 
@@ -139,6 +141,100 @@ TEST(Volume, TheCameraMayStandInIt) {
         render(frame_text(16, 16, 4, ortho_camera({0, 0, 0}, {0, 0, -1}, 1)) + kGlowingWall +
                smoke("scatter 0\n transparent 0.25 0.25 0.25") + slab("smoke"));
     expect_mean(picture, "RGBA", {0.5F, 0.5F, 0.5F});
+}
+
+// The plume of scenes/smoke.vdb, along rays parallel to -z, against quadrature in fine steps ------------------------------
+
+const std::string kSmokeFile = std::string(LIGHTSIEVE_SOURCE_DIR) + "/scenes/smoke.vdb";
+
+/// Along the ray through (x, y): what is left of light at the end, and what was emitted on the way.
+struct Quadrature {
+    std::array<double, 3> left{1, 1, 1}, emitted{};
+};
+
+/// extinction  a unit of density; emission  a unit of temperature to the fourth, in the colour of `kelvin` there
+Quadrature integrate_smoke(float x, float y, const std::array<double, 3>& extinction,
+                           double emission, float kelvin) {
+    const auto grids = load_volume(kSmokeFile, {});
+    const int density = grids->find("density"), temperature = grids->find("temperature");
+    const Box3f box = grids->bounds();
+    const int n = 20000;
+    const double step = static_cast<double>(box.size().z) / n;
+    Quadrature out;
+    for (int i = 0; i < n; ++i) {
+        const Vec3f p{x, y, box.upper.z - static_cast<float>((i + 0.5) * step)};
+        const auto d =
+            static_cast<double>(grids->sample(density, p, VolumeInterpolation::Trilinear).r);
+        const float heat = grids->sample(temperature, p, VolumeInterpolation::Trilinear).r;
+        const Color color = heat > 0 ? blackbody_color(kelvin * heat) : kBlack;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double glow = std::max(0.0, static_cast<double>(color[static_cast<int>(c)])) *
+                                std::pow(static_cast<double>(heat), 4) * emission;
+            out.emitted[c] += glow * out.left[c] * step;
+            out.left[c] *= std::exp(-extinction[c] * d * step);
+        }
+    }
+    return out;
+}
+
+std::string plume(std::string_view body) {
+    return node("standard_volume", "smoke", std::string(body)) +
+           node("volume", "plume", " filename \"" + kSmokeFile + "\"\n shader smoke");
+}
+
+/// Practically one ray, many times.
+std::string needle(float x, float y) { return ortho_camera({x, y, 5}, {x, y, 0}, 1e-4F); }
+
+TEST(Volume, GridsTransmitWhatTheirIntegralSays) {
+    // -ln of 0.5, 0.8, 0.25 a unit of density, four times as dense.
+    const std::array<double, 3> extinction{-4 * std::log(0.5), -4 * std::log(0.8),
+                                           -4 * std::log(0.25)};
+    for (const auto& [x, y] : {std::pair{0.0F, 1.5F}, {0.08F, 1.1F}, {-0.03F, 0.6F}}) {
+        const Quadrature truth = integrate_smoke(x, y, extinction, 0, 0);
+        const Picture picture = render(
+            frame_text(48, 48, 4, needle(x, y)) + kGlowingWall +
+                plume(" density 4\n scatter 0\n transparent 0.5 0.8 0.25\n emission_mode none"),
+            in_memory({"volume_opacity"}));
+        EXPECT_LT(truth.left[2], 0.9) << "no smoke where the test looks";
+        for (int c = 0; c < 3; ++c) {
+            const double left = truth.left[static_cast<std::size_t>(c)];
+            const Estimate seen = estimate(picture, "RGBA", c),
+                           hidden = estimate(picture, "volume_opacity", c);
+            EXPECT_NEAR(seen.mean, left, kZ * seen.error + 1e-3);
+            EXPECT_NEAR(hidden.mean, 1 - left, kZ * hidden.error + 1e-3);
+        }
+    }
+}
+
+TEST(Volume, FireEmitsWhatItsIntegralSays) {
+    const Quadrature truth = integrate_smoke(0, 0.3F, {3, 3, 3}, 20, 2000);
+    const Picture picture = render(
+        frame_text(48, 48, 4, needle(0, 0.3F)) +
+            plume(" density 3\n scatter 0\n blackbody_kelvin 2000\n blackbody_intensity 20"),
+        in_memory({"emission RGB"}));
+    EXPECT_GT(truth.emitted[0], 0.01) << "no fire where the test looks";
+    for (int c = 0; c < 3; ++c) {
+        const Estimate e = estimate(picture, "emission", c);
+        EXPECT_NEAR(e.mean, truth.emitted[static_cast<std::size_t>(c)],
+                    kZ * e.error + 0.002 * truth.emitted[0]);
+    }
+}
+
+TEST(Volume, GridsThatAFileLacksAreReportedWithThoseItHas) {
+    const TestScene scene(
+        frame_text(4, 4, 1, kFrontView) + plume(" density_channel \"fog\"\n emission_mode none"),
+        in_memory(), {"has no grid \"fog\""});
+    ASSERT_EQ(scene.diagnostics().items().size(), 1U);
+    EXPECT_EQ(scene.diagnostics().items()[0].code, Code::UnknownGrid);
+    EXPECT_NE(scene.diagnostics().items()[0].hint.find("temperature"), std::string::npos);
+}
+
+TEST(Volume, AFileThatIsNotThereLeavesTheRest) {
+    const TestScene scene(frame_text(4, 4, 1, kFrontView) + kGlowingWall + smoke("") +
+                              node("volume", "plume", " filename \"no/such.vdb\"\n shader smoke"),
+                          in_memory(), {"the volume is left out"});
+    EXPECT_TRUE(scene.scene().volumes.empty());
+    EXPECT_EQ(scene.scene().objects.size(), 1U);
 }
 
 TEST(Volume, GroupsAndAovsOfVolumesAddUp) {
@@ -153,12 +249,11 @@ TEST(Volume, GroupsAndAovsOfVolumesAddUp) {
         node("quad_light", "fill",
              " vertices 4 1 VECTOR -2 3 -2 2 3 -2 2 3 2 -2 3 2\n intensity 20\n aov \"fill\"") +
         node("skydome_light", "sky", " intensity 0.2");
-    const Picture picture =
-        render(text, in_memory({"direct RGB", "indirect RGB", "emission RGB", "background RGB",
-                                "diffuse RGB", "volume RGB", "volume_direct RGB",
-                                "volume_indirect RGB", "volume_key RGB", "volume_fill RGB",
-                                "volume_default RGB"},
-                               {"fog C<V.'fog'>.*", "fire C<O.'fog'>"}));
+    const Picture picture = render(
+        text, in_memory({"direct RGB", "indirect RGB", "emission RGB", "background RGB",
+                         "diffuse RGB", "volume RGB", "volume_direct RGB", "volume_indirect RGB",
+                         "volume_key RGB", "volume_fill RGB", "volume_default RGB"},
+                        {"fog C<V.'fog'>.*", "fire C<O.'fog'>"}));
     EXPECT_TRUE(check_sum(picture, "RGBA", {"direct", "indirect", "emission", "background"}));
     EXPECT_TRUE(check_sum(picture, "RGBA", {"diffuse", "volume", "emission", "background"}));
     EXPECT_TRUE(check_sum(picture, "volume", {"volume_direct", "volume_indirect"}));
@@ -194,10 +289,12 @@ TEST(MajorantWalk, CoversTheRayOnceInTheRightCells) {
     const Vec3f origin{-3, -2.5F, 7}, direction{1.1F, 0.9F, -1.3F};
     float t0 = 0, t1 = kInfinity;
     for (int a = 0; a < 3; ++a) {
-        const float near = ((direction[a] > 0 ? grid.box().lower : grid.box().upper)[a] - origin[a]) /
-                           direction[a];
-        const float far = ((direction[a] > 0 ? grid.box().upper : grid.box().lower)[a] - origin[a]) /
-                          direction[a];
+        const float near =
+            ((direction[a] > 0 ? grid.box().lower : grid.box().upper)[a] - origin[a]) /
+            direction[a];
+        const float far =
+            ((direction[a] > 0 ? grid.box().upper : grid.box().lower)[a] - origin[a]) /
+            direction[a];
         t0 = std::max(t0, near);
         t1 = std::min(t1, far);
     }
@@ -210,7 +307,8 @@ TEST(MajorantWalk, CoversTheRayOnceInTheRightCells) {
         reached = walk.end();
         if (walk.end() - walk.begin() < 1e-4F) continue;
         const Vec3f p = origin + direction * ((walk.begin() + walk.end()) / 2);
-        const int x = static_cast<int>(std::floor(p.x + 1)), y = static_cast<int>(std::floor((p.y + 2) * 3 / 4)),
+        const int x = static_cast<int>(std::floor(p.x + 1)),
+                  y = static_cast<int>(std::floor((p.y + 2) * 3 / 4)),
                   z = static_cast<int>(std::floor(p.z));
         EXPECT_EQ(walk.majorant(), grid.at(x, y, z));
         ++n;

@@ -253,8 +253,7 @@ void describe_switches(Describe<Options>& d) {
         .ignored();
     d.param("ignore_textures", &Options::ignore_textures, "Renders without textures.").pending();
     d.param("ignore_shaders", &Options::ignore_shaders, "Renders without shaders.").pending();
-    d.param("ignore_atmosphere", &Options::ignore_atmosphere,
-            "Renders without atmosphere.");
+    d.param("ignore_atmosphere", &Options::ignore_atmosphere, "Renders without atmosphere.");
     d.param("ignore_lights", &Options::ignore_lights, "Renders without lights.").pending();
     d.param("ignore_shadows", &Options::ignore_shadows, "Renders without shadows.").pending();
     d.param("ignore_subdivision", &Options::ignore_subdivision,

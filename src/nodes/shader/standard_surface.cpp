@@ -195,8 +195,7 @@ class Layering {
     [[nodiscard]] Medium interior() const {
         if (!(s_.transmission_depth > 0)) return {};
         return interior_medium(out_, kInterior, s_.transmission_color, s_.transmission_depth,
-                               s_.transmission_scatter,
-                               Phase(s_.transmission_scatter_anisotropy));
+                               s_.transmission_scatter, Phase(s_.transmission_scatter_anisotropy));
     }
     [[nodiscard]] OrientedFrame specular_frame() {
         if (!(s_.specular_anisotropy > 0)) return base_;

@@ -321,7 +321,8 @@ TEST(StandardSurface, DepthMovesTheTintIntoTheInterior) {
     node.set("transmission_depth", 2.0F);
     const Shaded deep(node, hit(1));
     EXPECT_NEAR(deep.weight(kTransmission).g / deep.weight(kTransmission).b, 1, 1e-5);
-    expect_color(deep.set.interior().medium.extinction, {std::log(2.0F) / 2, std::log(4.0F) / 2, 0});
+    expect_color(deep.set.interior().medium.extinction,
+                 {std::log(2.0F) / 2, std::log(4.0F) / 2, 0});
     node.set("thin_walled", true);
     EXPECT_TRUE(is_black(Shaded(node, hit(1)).set.interior().medium.extinction));
 }

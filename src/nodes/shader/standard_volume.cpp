@@ -138,8 +138,7 @@ Color StandardVolume::emitted(const ShadePoint& at, float amount) const {
         case EmissionMode::Channel: return channel(emission_channel, at, kWhite);
         case EmissionMode::Density: return Color::grey(amount);
         case EmissionMode::Blackbody: {
-            const float heat =
-                positive(temperature) * channel(temperature_channel, at, kBlack).r;
+            const float heat = positive(temperature) * channel(temperature_channel, at, kBlack).r;
             if (!(heat > 0)) return kBlack;
             const float glow = std::pow(heat, positive(blackbody_contrast));
             // Stefan-Boltzmann: what is emitted grows with the fourth power.

@@ -62,8 +62,9 @@ void describe_shape_common(Describe<T>& d) {
             "Above 0 the shape is no surface but the container of a volume. How large it is does "
             "not matter: free paths are drawn exactly, not stepped.")
         .unit("scene units");
-    d.param("volume_padding", &ShapeCommon::volume_padding,
-            "How much a volume reaches beyond its box; containers that are meshes keep their shape.")
+    d.param(
+         "volume_padding", &ShapeCommon::volume_padding,
+         "How much a volume reaches beyond its box; containers that are meshes keep their shape.")
         .unit("scene units");
     d.param("toon_id", &ShapeNode::toon_id, "Name for contour rendering, which is not supported.")
         .ignored();

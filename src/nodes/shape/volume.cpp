@@ -57,9 +57,10 @@ struct Volume : ShapeNode {
         box.upper = box.upper + padding;
         const Vec3f size = box.size();
         if (!is_finite(size) || !(size.x > 0) || !(size.y > 0) || !(size.z > 0)) {
-            context.diagnostics().warning(Code::ShapeBad, "the volume is empty",
-                                          context.where(filename.empty() ? "max" : "filename"),
-                                          filename.empty() ? "give it a file, or min and max" : "");
+            context.diagnostics().warning(
+                Code::ShapeBad, "the volume is empty",
+                context.where(filename.empty() ? "max" : "filename"),
+                filename.empty() ? "give it a file, or min and max" : "");
             return nullptr;
         }
         out->volume_box = box;
