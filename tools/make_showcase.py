@@ -9,7 +9,7 @@ import pathlib
 from collections.abc import Callable, Iterable
 
 HEADER = """\
-# Showcase: a still life in which every built-in AOV of surfaces and hair has light in it.
+# Showcase: a still life in which every built-in AOV has light in it.
 #
 #   red torus knot     base and clear coat                    diffuse, coat
 #   blue ball          cloth                                  sheen
@@ -17,6 +17,7 @@ HEADER = """\
 #   glass ball         refraction, an interior that tints     transmission, caustics off
 #   jade ball          closures with labels                   sss (walks below the surface), sss_jade
 #   fur ball           2000 curves                            hair (label of every lobe)
+#   incense            smoke.vdb, embers at its foot          volume (V), emission, both labelled smoke
 #   tinted pane        thin-walled glass, the sky behind it   transmission_direct
 #   paper lamp         thin-walled, lit from inside           sss (diffuse transmission), opacity
 #   filament           emissive shape inside the lamp         emission (O)
@@ -169,6 +170,7 @@ options
  GI_diffuse_depth 2
  GI_specular_depth 2
  GI_transmission_depth 6
+ GI_volume_depth 2
  GI_total_depth 8
 @OUTPUTS@}
 
@@ -396,7 +398,42 @@ standard_surface
  emission_color 0.95 0.16 0.5
 }
 
+standard_volume
+{
+ name smoke_shader
+ density 9
+ scatter_color 0.92 0.92 0.95
+ scatter_anisotropy 0.25
+ blackbody_kelvin 1900
+ blackbody_intensity 60
+ label "smoke"
+}
+
+lambert
+{
+ name incense_shader
+ Kd 0.5
+ Kd_color 0.35 0.2 0.12
+}
+
 # ---- shapes ----
+
+volume
+{
+ name smoke
+ filename "smoke.vdb"
+ grids 2 1 STRING "density" "temperature"
+ matrix 0.7 0 0 0  0 0.7 0 0  0 0 0.7 0  -0.78 0.1 -0.25 1
+ shader "smoke_shader"
+}
+
+sphere
+{
+ name incense
+ center -0.78 0.05 -0.25
+ radius 0.07
+ shader "incense_shader"
+}
 
 sphere
 {
@@ -458,13 +495,14 @@ sphere
 """
 
 
-# Every built-in AOV of surfaces and hair; volumes come later. A star makes one layer for each light group.
+# Every built-in AOV. A star makes one layer for each light group.
 LIGHT_AOVS = """
 RGBA_* direct indirect emission background
 diffuse diffuse_direct diffuse_indirect specular specular_direct specular_indirect
 coat coat_direct coat_indirect sheen sheen_direct sheen_indirect
 transmission transmission_direct transmission_indirect sss sss_direct sss_indirect
-sss_jade hair albedo denoise_albedo diffuse_albedo specular_albedo coat_albedo sheen_albedo transmission_albedo sss_albedo
+volume volume_direct volume_indirect
+sss_jade hair smoke albedo denoise_albedo diffuse_albedo specular_albedo coat_albedo sheen_albedo transmission_albedo sss_albedo volume_albedo
 reflections
 """
 
@@ -514,16 +552,18 @@ def outputs() -> str:
     strings = ["RGBA RGBA filter exr"]
     strings += [f"{name} RGB filter exr" for name in LIGHT_AOVS.split()]
     strings += [
+        "volume_opacity RGB filter exr",
         "Z FLOAT closest exr",
         "N VECTOR closest exr",
         "P VECTOR closest exr",
         "ID UINT closest exr",
     ]
     lines = "\n".join(f'  "{s}"' for s in strings)
-    return f""" light_path_expressions 3 1 STRING
+    return f""" light_path_expressions 4 1 STRING
   "reflections C<RS>+[LOB]"
   "sss_jade C<TD'jade'>.*"
   "hair C'hair'.*"
+  "smoke C'smoke'.*"
  outputs {len(strings)} 1 STRING
 {lines}
 """

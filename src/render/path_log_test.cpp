@@ -34,6 +34,7 @@ std::vector<std::string> custom(const std::string& group) {
             "many C(DS|SD)*.?[LOB]",
             "in_media C.*V.*",
             "twice_in_media CVV.*",
+            "specular_except_coat C<RS[^'coat']>.*",
             "sss_skin C<TD'skin'>.*",
             "emission_fire C<O.'fire'>",
             "hair C'hair'.*",

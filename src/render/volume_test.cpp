@@ -280,6 +280,85 @@ TEST(Volume, ASurfaceShaderInAContainerIsReported) {
     EXPECT_EQ(scene.scene().objects.size(), 1U);
 }
 
+TEST(Volume, SenselessNumbersEndInAPicture) {
+    for (const char* body :
+         {"density 1e30", "density -3", "transparent 0 0 0\n transparent_depth 0",
+          "transparent -1 2 0.5", "scatter_color 5 -1 0.5", "scatter_anisotropy 7",
+          "scatter_anisotropy -1\n scatter_secondary_anisotropy 1\n "
+          "scatter_secondary_anisotropy_mix 9",
+          "density 1e-30", "transparent_depth -2", "transparent_depth 1e30"}) {
+        SCOPED_TRACE(body);
+        const Picture picture =
+            render(TestScene(frame_text(6, 6, 2, kFrontView, " GI_volume_depth 2") +
+                                 node("skydome_light", "sky", "") +
+                                 node("point_light", "lamp", " position 0 0 0\n intensity 3") +
+                                 smoke(body) + slab("smoke"),
+                             in_memory({"volume_opacity"}), {"outside", "range"}));
+        for (std::size_t i = 0; i < picture.n_pixels(); ++i) {
+            EXPECT_TRUE(is_finite(picture.color("RGBA", i)));
+            EXPECT_GE(picture.color("volume_opacity", i).g, 0);
+            EXPECT_LE(picture.color("volume_opacity", i).g, 1 + 1e-5F);
+        }
+    }
+}
+
+TEST(Volume, EmptyBoxesAreReported) {
+    for (const char* box : {"", " min 1 1 1\n max 0 0 0", " min 0 0 0\n max 1 0 1"}) {
+        const TestScene scene(frame_text(4, 4, 1, kFrontView) + smoke("") +
+                                  node("volume", "nothing", std::string(box) + "\n shader smoke"),
+                              in_memory(), {"the volume is empty"});
+        EXPECT_TRUE(scene.scene().volumes.empty());
+    }
+}
+
+TEST(Haze, ScattersLightOfLampsOnceAlongTheRay) {
+    // Even haze of density s around a lamp of intensity I, seen past it at distance a: the closed form is
+    // s I / (4 pi a) times the angle under which the lamp sees the ray. No attenuation. Here the whole ray: pi.
+    const float s = 0.01F, intensity = 5, a = 1;
+    const Picture picture = render(
+        frame_text(32, 32, 3, ortho_camera({0, a, 3000}, {0, a, 0}, 1e-3F), " atmosphere haze") +
+            node("atmosphere_volume", "haze", " density 0.01\n samples 2") +
+            node("point_light", "lamp", " position 0 0 0\n intensity 5") + lambert("clay", 0) +
+            quad("wall", {-9, -9, -3000}, {9, -9, -3000}, {9, 9, -3000}, {-9, 9, -3000}, "clay"),
+        in_memory({"volume_direct RGB"}));
+    const Estimate e = estimate(picture, "volume_direct", 0);
+    const double truth = static_cast<double>(s * intensity / (4 * kPi * a)) * M_PI;
+    EXPECT_NEAR(e.mean, truth, kZ * e.error + 2e-3 * truth);
+    EXPECT_LT(e.error, 0.01 * truth);
+    EXPECT_TRUE(check_equal(picture, "RGBA", picture, "volume_direct"));
+}
+
+TEST(Haze, AttenuatesWhatIsBehind) {
+    const Picture picture =
+        render(frame_text(8, 8, 2, kFrontView, " atmosphere haze") + kGlowingWall +
+               node("atmosphere_volume", "haze", " attenuation 0.1\n rgb_attenuation 1 2 0.5"));
+    // Eight units from the camera to the wall.
+    EXPECT_TRUE(check_mean(picture, "RGBA",
+                           {std::exp(-0.8F), std::exp(-1.6F), std::exp(-0.4F)}, 1e-3));
+}
+
+TEST(Fog, PointsAlongTheRayAndCollisionsAgree) {
+    // A lamp in even fog: quick rays near it find most light by its angle, collisions the rest. The truth by quadrature.
+    const double s = 0.5, albedo = 0.8, a = 0.3, intensity = 2;
+    double truth = 0;
+    const int n = 200000;
+    for (int i = 0; i < n; ++i) {
+        const double z = -3 + 6 * (i + 0.5) / n, distance = std::sqrt(a * a + z * z);
+        const double before = 3 - z;  // from the fog's near face
+        truth += s * albedo / (4 * M_PI) * intensity / (distance * distance) *
+                 std::exp(-s * (before + distance)) * 6 / n;
+    }
+    const float y = 0.3F;
+    const Picture picture = render(
+        frame_text(64, 64, 4, ortho_camera({0, y, 9}, {0, y, 0}, 1e-3F)) +
+            smoke("density 0.5\n scatter_color 0.8 0.8 0.8") + slab("smoke", 3, 60) +
+            node("point_light", "lamp", " position 0 0 0\n intensity 2"),
+        in_memory({"volume_direct RGB"}));
+    const Estimate e = estimate(picture, "volume_direct", 0);
+    EXPECT_NEAR(e.mean, truth, kZ * e.error + 1e-3 * truth);
+    EXPECT_LT(e.error, 0.01 * truth);
+}
+
 TEST(MajorantWalk, CoversTheRayOnceInTheRightCells) {
     MajorantGrid grid({{-1, -2, 0}, {3, 2, 5}}, {4, 3, 5});
     for (int z = 0; z < 5; ++z)
