@@ -57,7 +57,8 @@ void walk(Vec position, Vec direction, const Fog& fog, const Boundary& leave, Di
           const std::function<void(Vec, double)>& came_out) {
     double weight = 1;
     for (int i = 0; i < 2000 && weight > 1e-5; ++i) {
-        const double far = leave(position, direction), way = -std::log(dice.roll()) / fog.extinction;
+        const double far = leave(position, direction),
+                     way = -std::log(dice.roll()) / fog.extinction;
         if (far >= 0 && way >= far) return came_out(position + direction * far, weight);
         position = position + direction * way;
         direction = dice.direction();

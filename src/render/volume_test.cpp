@@ -333,8 +333,8 @@ TEST(Haze, AttenuatesWhatIsBehind) {
         render(frame_text(8, 8, 2, kFrontView, " atmosphere haze") + kGlowingWall +
                node("atmosphere_volume", "haze", " attenuation 0.1\n rgb_attenuation 1 2 0.5"));
     // Eight units from the camera to the wall.
-    EXPECT_TRUE(check_mean(picture, "RGBA",
-                           {std::exp(-0.8F), std::exp(-1.6F), std::exp(-0.4F)}, 1e-3));
+    EXPECT_TRUE(
+        check_mean(picture, "RGBA", {std::exp(-0.8F), std::exp(-1.6F), std::exp(-0.4F)}, 1e-3));
 }
 
 TEST(Fog, PointsAlongTheRayAndCollisionsAgree) {
@@ -349,11 +349,11 @@ TEST(Fog, PointsAlongTheRayAndCollisionsAgree) {
                  std::exp(-s * (before + distance)) * 6 / n;
     }
     const float y = 0.3F;
-    const Picture picture = render(
-        frame_text(64, 64, 4, ortho_camera({0, y, 9}, {0, y, 0}, 1e-3F)) +
-            smoke("density 0.5\n scatter_color 0.8 0.8 0.8") + slab("smoke", 3, 60) +
-            node("point_light", "lamp", " position 0 0 0\n intensity 2"),
-        in_memory({"volume_direct RGB"}));
+    const Picture picture =
+        render(frame_text(64, 64, 4, ortho_camera({0, y, 9}, {0, y, 0}, 1e-3F)) +
+                   smoke("density 0.5\n scatter_color 0.8 0.8 0.8") + slab("smoke", 3, 60) +
+                   node("point_light", "lamp", " position 0 0 0\n intensity 2"),
+               in_memory({"volume_direct RGB"}));
     const Estimate e = estimate(picture, "volume_direct", 0);
     EXPECT_NEAR(e.mean, truth, kZ * e.error + 1e-3 * truth);
     EXPECT_LT(e.error, 0.01 * truth);

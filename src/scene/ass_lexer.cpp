@@ -300,7 +300,8 @@ class ValueLexer {
         return error != std::errc::invalid_argument && end == word.data() + word.size();
     }
     static bool looks_like_type(std::string_view word) {
-        if (word.size() < 3) return false;
+        // A whole number is a third value: `position 0 1 3000`.
+        if (word.size() < 3 || (word[0] >= '0' && word[0] <= '9')) return false;
         for (const char c : word)
             if (!((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_')) return false;
         return true;

@@ -128,7 +128,10 @@ std::vector<float> fingerprint(const TestNode& node) {
         put(s.set.transparency());
         put(s.set.shadow_transmission());
         put(s.set.matte());
-        put(s.set.interior().medium.extinction);
+        const Medium& inside = s.set.interior().medium;
+        put(inside.extinction);
+        put(inside.scattering);
+        out.push_back(inside.phase.anisotropy);
         out.push_back(s.set.interior().ior);
         out.push_back(static_cast<float>(s.set.interior().priority));
         out.push_back(s.set.disperses() ? 1.0F : 0.0F);
