@@ -64,9 +64,12 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
     out->may_be_transparent = shader_may_be_transparent(node);
     out->may_tint_shadows = shader_may_tint_shadows(node);
     scene_->disperses |= shader_may_disperse(node);
+    if (const auto* priority = node.find<std::int32_t>("dielectric_priority"))
+        out->dielectric_priority = *priority;
     for (const ShaderProgram* part : out->parts) {
         out->may_be_transparent |= part->may_be_transparent;
         out->may_tint_shadows |= part->may_tint_shadows;
+        out->dielectric_priority = std::max(out->dielectric_priority, part->dielectric_priority);
     }
     scene_->shaders.push_back(std::move(program));
     programs_[key] = out;

@@ -333,7 +333,7 @@ template <class Tracker>
 void Integrator<Tracker>::add_escape(const Ray& ray) {
     float alpha = by_shadow_rays() ? 0 : add_infinite_lights(ray);
     if (scene_.background != nullptr && !lights_only_) {
-        const auto [radiance, opaque] = background_along(ray);
+        const auto [radiance, opaque] = background_along(ray, n_scatter_ == 0);
         const auto visible = [&](std::size_t g) {
             return (scene_.background_visibility & bit_of(groups_[g])) != 0 &&
                    !groups_[g].key.lights_only;
@@ -352,7 +352,7 @@ template <class Tracker>
 void Integrator<Tracker>::add_exit_background(const Ray& ray) {
     exit_pending_ = false;
     if (scene_.background == nullptr) return;
-    const Color radiance = background_along(ray).rgb;
+    const Color radiance = background_along(ray, false).rgb;
     deposit(
         {scene_.background_record.terminal, scene_.background_record.event}, [&](std::size_t g) {
             return groups_[g].key.exits && (scene_.background_visibility & bit_of(groups_[g])) != 0
@@ -361,17 +361,17 @@ void Integrator<Tracker>::add_exit_background(const Ray& ray) {
         });
 }
 
-/// Behind the picture, the background fills the frame; around the scene, as things reflect it, it is a map of latitude and
-/// longitude. (Seen on reference pictures test_0098 and test_0103.)
+/// Behind the picture the background fills the frame. What other rays see of it is its colour at uv 0 0, unless it goes by the
+/// direction: in Arnold, a checkerboard lights a ball with one of its colours (reference pictures test_0098 and test_0103).
+///
+/// behind_picture  seen where the sample lies in the frame
 template <class Tracker>
-ShaderValue Integrator<Tracker>::background_along(const Ray& ray) const {
+ShaderValue Integrator<Tracker>::background_along(const Ray& ray, bool behind_picture) const {
     ShadePoint at;
     at.direction = ray.direction;
     at.wo = -ray.direction;
     at.ray_type = groups_[0].key.ray_type;
-    at.uv = {0.5F - std::atan2(ray.direction.x, ray.direction.z) * (0.5F * kInvPi),
-             0.5F + std::asin(std::clamp(ray.direction.y, -1.0F, 1.0F)) * kInvPi};
-    if (n_scatter_ == 0) at.uv = {film.x, 1 - film.y};
+    if (behind_picture) at.uv = {film.x, 1 - film.y};
     return scene_.background->value(at);
 }
 
@@ -384,7 +384,9 @@ void Integrator<Tracker>::absorb(const Surface& surface) {
     // Where collisions are drawn they have taken away what is absorbed.
     if (here != nullptr && here->medium.scatters()) return;
     if (own.is_body && !surface.at.entering)
-        here = is_hidden(surface, own, interiors_) ? interiors_.around(surface.shader) : &own;
+        here = is_hidden(surface, own, interiors_)
+                   ? interiors_.around(surface.shader, own.priority)
+                   : &own;
     if (here == nullptr || is_black(here->medium.extinction)) return;
     const Color left = transmittance(here->medium.extinction, surface.t);
     groups_.scale(left);
@@ -400,7 +402,7 @@ void Integrator<Tracker>::tell_path(ShadePoint& at, const Interiors& inside,
     at.wavelength = wavelength_.nm;
     at.monochromatic = monochromatic_;
     if (!scene_.settings.dielectric_priorities) return;
-    const Interior* around = inside.around(shader);
+    const Interior* around = inside.around(shader, shader->dielectric_priority);
     if (around != nullptr) at.outer_ior = around->ior;
 }
 
@@ -409,14 +411,14 @@ template <class Tracker>
 bool Integrator<Tracker>::is_hidden(const Surface& surface, const Interior& own,
                                     const Interiors& inside) const {
     return own.is_body && scene_.settings.dielectric_priorities &&
-           inside.hides(surface.shader, own, surface.at.entering);
+           inside.hides(surface.shader, own);
 }
 
 template <class Tracker>
 bool Integrator<Tracker>::pass_hidden_surface(const Surface& surface, Ray& ray) {
     const Interior& own = closures_.interior();
     if (!is_hidden(surface, own, interiors_)) return false;
-    interiors_.cross(surface.shader, own, surface.at.entering);
+    interiors_.cross(surface.shader, own, surface.at.entering, surface.object);
     go_straight(surface, ray);
     return true;
 }
@@ -445,7 +447,7 @@ void Integrator<Tracker>::add_shadow_matte(const Surface& surface, const Ray& ra
     show(*matte.shadow_record, matte.shadow_color * covered);
     if (!matte.sees_background) return show(*matte.background_record, matte.background * left);
     if (scene_.background != nullptr)
-        show(scene_.background_record, background_along(ray).rgb * left);
+        show(scene_.background_record, background_along(ray, n_scatter_ == 0).rgb * left);
     // Skydomes as the camera sees them. What other rays see of them would be a light that light samples know nothing of.
     if (n_scatter_ > 0) return;
     for (const std::uint32_t index : scene_.infinite_lights) {

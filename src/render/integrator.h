@@ -93,7 +93,7 @@ class Integrator {
     void add_escape(const Ray& ray);
     float add_infinite_lights(const Ray& ray);
     void add_exit_background(const Ray& ray);
-    [[nodiscard]] ShaderValue background_along(const Ray& ray) const;
+    [[nodiscard]] ShaderValue background_along(const Ray& ray, bool behind_picture) const;
     /// What shaders must know of the path.
     void tell_path(ShadePoint& at, const Interiors& inside, const ShaderProgram* shader) const;
     void go_straight(const Surface& surface, Ray& ray) const;

@@ -94,6 +94,7 @@ void Integrator<Tracker>::note_behind(const Surface& front, const Mat4f& camera_
 template <class Tracker>
 ShadowShown Integrator<Tracker>::shadow_on(const Surface& surface, const ShadowMatte& matte) {
     const LightSampler* lights = surface.object->lights;
+    if (lights->empty()) return {};
     const Vec3f normal = matte.backlighting > 0 ? Vec3f{0, 0, 0} : surface.outward;
     Color all, arriving;
     for (std::uint32_t i = 0; i < kShadowSamples; ++i) {

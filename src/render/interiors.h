@@ -2,8 +2,9 @@
 //
 // A body is known by its shader, since one body may be made of several shapes. A path enters it when it is refracted at
 // the outside of its surface and leaves it at the inside. Bodies may overlap: water reaches into the wall of its glass, so
-// that no gap is left between them. There the body of higher priority is, of equals the one that was entered last. Its
-// index of refraction and its medium count; surfaces of the others are not there.
+// that no gap is left between them. There the body of higher priority is: its index of refraction and its medium count,
+// surfaces of the others are not there. Bodies of equal priority know nothing of one another: their surfaces border on
+// what else is there, or on air. So surfaces that do not close, which paths enter and never leave, do no harm by default.
 // Source: Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images".
 #pragma once
 
@@ -43,26 +44,25 @@ class Interiors {
             leave(body);
     }
     [[nodiscard]] bool empty() const { return n_ == 0; }
-    /// The body that is there; null: air.
-    [[nodiscard]] const Interior* here() const { return around(nullptr); }
+    /// The body that is there, of equals the one that was entered last; null: air.
+    [[nodiscard]] const Interior* here() const {
+        return interior_of(best([](const Body&) { return true; }));
+    }
     /// The same, if its medium scatters.
     [[nodiscard]] std::optional<BodyMedium> scattering() const {
-        const std::size_t i = index_around(nullptr);
-        if (i == n_ || !bodies_[i].interior.medium.scatters()) return std::nullopt;
-        return BodyMedium{bodies_[i].interior.medium, bodies_[i].object};
+        const Body* body = best([](const Body&) { return true; });
+        if (body == nullptr || !body->interior.medium.scatters()) return std::nullopt;
+        return BodyMedium{body->interior.medium, body->object};
     }
-    /// The one that is there beside `body`: what its surface borders on.
-    [[nodiscard]] const Interior* around(const void* body) const {
-        const std::size_t i = index_around(body);
-        return i == n_ ? nullptr : &bodies_[i].interior;
+    /// What a surface of `body` borders on; null: air.
+    [[nodiscard]] const Interior* around(const void* body, int priority) const {
+        return interior_of(best(
+            [&](const Body& b) { return b.body != body && b.interior.priority != priority; }));
     }
     /// Whether the surface of a body is not there, because it lies in another one that wins.
-    [[nodiscard]] bool hides(const void* body, const Interior& interior, bool entering) const {
-        const std::size_t i = index_around(body);
-        if (i == n_) return false;
-        if (bodies_[i].interior.priority != interior.priority)
-            return bodies_[i].interior.priority > interior.priority;
-        return !entering && i + 1 > entered(body);
+    [[nodiscard]] bool hides(const void* body, const Interior& interior) const {
+        const Interior* other = around(body, interior.priority);
+        return other != nullptr && other->priority > interior.priority;
     }
 
   private:
@@ -71,19 +71,18 @@ class Interiors {
         Interior interior;
         const SceneObject* object = nullptr;
     };
-    [[nodiscard]] std::size_t index_around(const void* body) const {
-        std::size_t best = n_;
-        for (std::size_t i = 0; i < n_; ++i)
-            if (bodies_[i].body != body &&
-                (best == n_ || bodies_[i].interior.priority >= bodies_[best].interior.priority))
-                best = i;
-        return best;
+    [[nodiscard]] static const Interior* interior_of(const Body* body) {
+        return body == nullptr ? nullptr : &body->interior;
     }
-    /// How many bodies were entered until this one, itself included; 0: the path began in it.
-    [[nodiscard]] std::size_t entered(const void* body) const {
-        for (std::size_t i = n_; i-- > 0;)
-            if (bodies_[i].body == body) return i + 1;
-        return 0;
+    /// The one of highest priority among those that `counts` says; null if there is none.
+    template <class Counts>
+    [[nodiscard]] const Body* best(const Counts& counts) const {
+        const Body* found = nullptr;
+        for (std::size_t i = 0; i < n_; ++i)
+            if (counts(bodies_[i]) &&
+                (found == nullptr || bodies_[i].interior.priority >= found->interior.priority))
+                found = &bodies_[i];
+        return found;
     }
 
     std::array<Body, 8> bodies_;

@@ -15,39 +15,33 @@ TEST(Interiors, HigherPriorityIsThere) {
     const Interior glass = body(1.5F, 2), water = body(1.33F, 1);
     Interiors inside;
     EXPECT_EQ(inside.here(), nullptr);
-    EXPECT_FALSE(inside.hides(&kWater, water, true));
+    EXPECT_FALSE(inside.hides(&kWater, water));
     inside.enter(&kGlass, glass);
-    EXPECT_TRUE(inside.hides(&kWater, water, true)) << "water reaches into the glass";
+    EXPECT_TRUE(inside.hides(&kWater, water)) << "water reaches into the glass";
     inside.enter(&kWater, water);
     EXPECT_EQ(inside.here()->ior, 1.5F);
-    EXPECT_EQ(inside.around(&kGlass)->ior, 1.33F) << "the glass borders on the water";
-    EXPECT_FALSE(inside.hides(&kGlass, glass, false));
+    EXPECT_EQ(inside.around(&kGlass, 2)->ior, 1.33F) << "the glass borders on the water";
+    EXPECT_FALSE(inside.hides(&kGlass, glass));
     inside.leave(&kGlass);
     EXPECT_EQ(inside.here()->ior, 1.33F);
-    EXPECT_FALSE(inside.hides(&kWater, water, false));
-    EXPECT_FALSE(inside.hides(&kGlass, glass, true)) << "glass wins from the other side as well";
+    EXPECT_FALSE(inside.hides(&kWater, water));
+    EXPECT_FALSE(inside.hides(&kGlass, glass)) << "glass wins from the other side as well";
 }
 
-TEST(Interiors, OfEqualsTheLastIsThere) {
-    const Interior water = body(1.33F, 0), ice = body(1.31F, 0);
+TEST(Interiors, EqualsKnowNothingOfOneAnother) {
+    const Interior water = body(1.33F, 0), ice = body(1.31F, 0), glass = body(1.5F, -1);
     Interiors inside;
     inside.enter(&kWater, water);
-    EXPECT_FALSE(inside.hides(&kIce, ice, true));
+    EXPECT_FALSE(inside.hides(&kIce, ice));
+    EXPECT_EQ(inside.around(&kIce, 0), nullptr);
     inside.enter(&kIce, ice);
-    EXPECT_EQ(inside.here()->ior, 1.31F);
-    EXPECT_TRUE(inside.hides(&kWater, water, false));
-    EXPECT_FALSE(inside.hides(&kIce, ice, false));
+    EXPECT_EQ(inside.here()->ior, 1.31F) << "the last one absorbs";
+    EXPECT_FALSE(inside.hides(&kWater, water));
+    EXPECT_TRUE(inside.hides(&kGlass, glass));
     inside.leave(&kIce);
     EXPECT_EQ(inside.here()->ior, 1.33F);
-}
-
-TEST(Interiors, ABodyThatThePathBeganInIsTheFirst) {
-    Interiors inside;
-    inside.enter(&kIce, body(1.31F, 0));
-    EXPECT_TRUE(inside.hides(&kWater, body(1.33F, 0), false));
-    EXPECT_FALSE(inside.hides(&kWater, body(1.33F, 1), false));
-    inside.leave(&kWater);  // was never entered
-    EXPECT_EQ(inside.here()->ior, 1.31F);
+    inside.leave(&kGlass);  // was never entered
+    EXPECT_EQ(inside.here()->ior, 1.33F);
 }
 
 TEST(Interiors, MoreThanFitAreForgotten) {

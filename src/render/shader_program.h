@@ -56,6 +56,8 @@ class ShaderProgram {
     EventLabels labels;
     /// Shaders whose closures it takes over (mix_shader.shader1).
     std::vector<const ShaderProgram*> parts;
+    /// Of the body that it covers, if it is one.
+    int dielectric_priority = 0;
     /// Whether rays may pass straight through what this shader covers.
     bool may_be_transparent = false;
     /// Whether shadow rays may pass where others are refracted (ClosureSet::transmit_shadow).

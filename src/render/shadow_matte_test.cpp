@@ -95,6 +95,15 @@ TEST(ShadowMatte, ReflectsIndirectLightAlone) {
     EXPECT_TRUE(check_sum(diffuse, "RGBA", {"background", "emission", "diffuse", "specular"}));
 }
 
+TEST(ShadowMatte, WithoutLightsThereIsNoShadow) {
+    std::string text = ground(" background background_color\n background_color 0.2 0.4 0.8");
+    text.erase(text.find("distant_light"));
+    const Picture picture = render(text, in_memory(kAovs));
+    EXPECT_TRUE(check_constant(picture, "RGBA", {0.2F, 0.4F, 0.8F}, 1e-5));
+    EXPECT_TRUE(check_black(picture, "shadow_mask"));
+    EXPECT_EQ(picture.mean_alpha("RGBA"), 0);
+}
+
 TEST(ShadowMatte, LayersAddUpAndTheLogAgrees) {
     const std::string text = ground(
         " indirect_diffuse_enable on\n diffuse_use_background off\n shadow_opacity 0.5\n "

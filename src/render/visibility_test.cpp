@@ -428,5 +428,26 @@ TEST(Caustics, AreSeenByDiffuseRaysOnlyWhereTheShaderSaysSo) {
     EXPECT_TRUE(check_equal(off, "diffuse_direct", on, "diffuse_direct"));
 }
 
+// Background -------------------------------------------------------------------------------------------------------------
+
+TEST(Background, FillsTheFrameAndLightsWithOneColour) {
+    // A cell is a quarter of the frame: black at the lower left and upper right of every pair.
+    const std::string text =
+        frame_text(8, 8, 2, from_above(2), " background checks\n GI_diffuse_depth 1") +
+        node("checkerboard", "checks",
+             " color1 0.25 0.5 1\n color2 1 0.5 0\n u_frequency 1\n v_frequency 1") +
+        node("lambert", "white", " Kd 1") + sphere("ball", {0, 0, 0}, 0.3F, "white");
+    const Picture picture = render(text, in_memory({"diffuse", "background"}));
+    // Cells as seen from the lower left: even, odd; odd, even.
+    EXPECT_EQ(picture.color("background", 56), (Color{1, 0.5F, 0}));
+    EXPECT_EQ(picture.color("background", 63), (Color{0.25F, 0.5F, 1}));
+    EXPECT_EQ(picture.color("background", 0), (Color{0.25F, 0.5F, 1}));
+    EXPECT_EQ(picture.color("background", 7), (Color{1, 0.5F, 0}));
+    // The ball sees uv 0 0 all around.
+    const Color lit = picture.color("diffuse", 27);
+    EXPECT_NEAR(lit.r, 1, 1e-4F);
+    EXPECT_NEAR(lit.b, 0, 1e-4F);
+}
+
 }  // namespace
 }  // namespace lightsieve::testing

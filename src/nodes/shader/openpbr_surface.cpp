@@ -415,9 +415,9 @@ void describe_geometry(Describe<S>& d) {
             "Normal of the coat, world space; acts when linked.");
     d.param("geometry_coat_tangent", &S::geometry_coat_tangent,
             "Direction of the coat's anisotropy, world space; acts when linked.");
-    d.param(
-        "dielectric_priority", &S::dielectric_priority,
-        "Where clear bodies overlap, the one of higher priority is there; of equals the last.");
+    d.param("dielectric_priority", &S::dielectric_priority,
+            "Where clear bodies overlap, the one of higher priority is there; equals ignore each "
+            "other.");
     d.param("caustics", &S::caustics, "Specular lobes are also seen by diffuse rays.");
     d.param("internal_reflections", &S::internal_reflections,
             "Rays inside of a clear body are reflected.");

@@ -317,9 +317,9 @@ void describe_transmission(Describe<S>& d) {
         .ignored();
     d.param("transmit_aovs", &S::transmit_aovs,
             "What is seen through the surface goes to its own AOVs, alpha and data layers.");
-    d.param(
-        "dielectric_priority", &S::dielectric_priority,
-        "Where clear bodies overlap, the one of higher priority is there; of equals the last.");
+    d.param("dielectric_priority", &S::dielectric_priority,
+            "Where clear bodies overlap, the one of higher priority is there; equals ignore each "
+            "other.");
 }
 
 void describe_subsurface_and_sheen(Describe<S>& d) {
