@@ -423,14 +423,14 @@ volume
  name smoke
  filename "smoke.vdb"
  grids 2 1 STRING "density" "temperature"
- matrix 0.7 0 0 0  0 0.7 0 0  0 0 0.7 0  -0.78 0.1 -0.25 1
+ matrix 0.7 0 0 0  0 0.7 0 0  0 0 0.7 0  -0.95 0.1 -0.3 1
  shader "smoke_shader"
 }
 
 sphere
 {
  name incense
- center -0.78 0.05 -0.25
+ center -0.95 0.05 -0.3
  radius 0.07
  shader "incense_shader"
 }
