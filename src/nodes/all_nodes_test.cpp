@@ -68,7 +68,11 @@ TEST_P(EveryNode, HasTheFunctionsOfItsKind) {
     EXPECT_EQ(t.kind == NodeKind::Light, t.light_common != nullptr);
     EXPECT_EQ(t.kind == NodeKind::Filter, t.make_filter != nullptr);
     EXPECT_EQ(t.kind == NodeKind::Driver, t.make_driver != nullptr);
-    EXPECT_EQ(t.kind == NodeKind::Shader, t.eval_closure != nullptr || t.eval_value != nullptr);
+    EXPECT_EQ(t.kind == NodeKind::LightFilter, t.make_light_filter != nullptr);
+    const bool evaluates = t.eval_closure != nullptr || t.eval_value != nullptr ||
+                           t.eval_text != nullptr || t.eval_matrix != nullptr;
+    EXPECT_EQ(t.kind == NodeKind::Shader, evaluates);
+    EXPECT_EQ(t.output == OutputType::String, t.possible_texts != nullptr);
     EXPECT_EQ(t.kind == NodeKind::Shader, t.output != OutputType::None);
     if (t.kind == NodeKind::Shader) {
         EXPECT_LE(t.block_size, 2048U);

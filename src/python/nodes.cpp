@@ -85,6 +85,8 @@ std::string_view output_text(OutputType output) {
         case OutputType::Rgb: return "RGB";
         case OutputType::Rgba: return "RGBA";
         case OutputType::Closure: return "CLOSURE";
+        case OutputType::String: return "STRING";
+        case OutputType::Matrix: return "MATRIX";
         case OutputType::None: break;
     }
     return "";

@@ -97,6 +97,7 @@ class Planner {
 
     void run() {
         plan_.table = table_.table();
+        plan_.written.assign(input_.written.begin(), input_.written.end());
         plan_.light_groups.assign(input_.light_groups.begin(), input_.light_groups.end());
         define_expressions();
         plan_.custom = table_.custom();
@@ -190,8 +191,11 @@ class Planner {
         std::vector<lpe::OutputName> names;
         for (const OutputString& output : outputs_)
             names.push_back({output.aov, output.layer, output.driver, aov_place(output)});
+        std::vector<std::string> others = data_aov_names();
+        for (const Name name : input_.written)
+            others.push_back(name.str());
         const lpe::AovNames known{
-            table_, {input_.light_groups.begin(), input_.light_groups.end()}, data_aov_names()};
+            table_, {input_.light_groups.begin(), input_.light_groups.end()}, std::move(others)};
         std::vector<lpe::ResolvedOutput> resolved;
         for (std::size_t i = 0; i < outputs_.size(); ++i) {
             resolved.push_back(lpe::resolve_output(names[i], known, diagnostics_));
@@ -253,9 +257,27 @@ class Planner {
         }
     }
 
+    /// A layer of what shaders write, of any type; light path expressions and data of hits come first.
+    bool plan_written(const OutputString& output, const PlannedLayer& base) {
+        const auto name = std::find(plan_.written.begin(), plan_.written.end(), Name(output.aov));
+        if (name == plan_.written.end()) return false;
+        PlannedLayer planned = base;
+        planned.info.name = output.layer.empty() ? output.aov : output.layer;
+        planned.info.aov = output.aov;
+        planned.info.is_color = output.type == "RGB" || output.type == "RGBA";
+        planned.source = LayerSource::Written;
+        planned.aov = static_cast<std::uint32_t>(name - plan_.written.begin());
+        plan_.layers.push_back(std::move(planned));
+        return true;
+    }
+
     void plan_data(const OutputString& output, const PlannedLayer& base) {
         const auto data = std::find_if(kDataAovs.begin(), kDataAovs.end(),
                                        [&](const DataAov& d) { return d.name == output.aov; });
+        if (data == kDataAovs.end()) {
+            (void)plan_written(output, base);
+            return;
+        }
         if (std::find(data->types.begin(), data->types.end(), output.type) == data->types.end()) {
             std::string types;
             for (std::string_view type : data->types)

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/name.h"
 #include "lpe/builtins.h"
 #include "lpe/light_groups.h"
 #include "lpe/program.h"
@@ -38,6 +39,7 @@ enum class LayerSource : std::uint8_t {
     ShadowMask,        ///< of shadow_matte: how much light is missing in all
     Id,                ///< ID: the shape's id or a hash of its name
     Uv,                ///< uv
+    Written,           ///< what shaders write (aov_write_rgb)
     Black,             ///< an expression with an error, under abort_on_error off
 };
 
@@ -48,7 +50,7 @@ enum class LayerSource : std::uint8_t {
 struct PlannedLayer {
     ImageLayer info;
     LayerSource source = LayerSource::Beauty;
-    std::uint32_t aov = 0;   ///< for Expression: index of the request
+    std::uint32_t aov = 0;   ///< for Expression: index of the request; for Written: its number
     std::uint32_t view = 0;  ///< filter view
     std::uint32_t pass = 0;
     std::uint32_t driver = 0;
@@ -90,6 +92,7 @@ struct AovPlan {
     lpe::BuiltinTable table = lpe::BuiltinTable::Reference;  ///< which built-ins the scene uses
     std::vector<std::string> light_groups;  ///< named groups of the scene's lights
     std::vector<lpe::NamedExpr> custom;     ///< expressions that the scene and the caller define
+    std::vector<Name> written;              ///< AOVs that shaders write, by number
 };
 
 /// An output string cut into its parts.
@@ -110,6 +113,7 @@ struct PlanInput {
     const RenderOptions& options;
     std::span<const std::string> light_groups;  ///< named groups of the scene's lights
     std::span<const Event> events;              ///< every event the scene can produce
+    std::span<const Name> written;              ///< AOVs that shaders write, by number
     bool has_caustics = false;                  ///< some shader has `caustics` on
 };
 

@@ -7,6 +7,7 @@
 #include "core/sobol.h"
 #include "render/film.h"
 #include "render/scene.h"
+#include "scene/shade_services.h"
 
 namespace lightsieve {
 
@@ -16,8 +17,8 @@ struct CameraSample {
     CameraRay ray;
     float time = 0;
     Mat4f camera_from_world;
-    Vec2f offset;  ///< from the pixel's centre [pixels]
-    Vec2f film;    ///< [0,1]^2 over the frame, (0,0) the upper left corner
+    Vec2f offset;    ///< from the pixel's centre [pixels]
+    RayState state;  ///< what shaders see of it: pixel, place in it
 };
 
 /// Makes the camera samples of one pass.

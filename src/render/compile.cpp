@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "render/compiler.h"
+#include "render/shade_services.h"
 
 namespace lightsieve {
 namespace {
@@ -19,6 +20,9 @@ std::uint8_t depth_limit(std::int32_t n) {
 }
 
 }  // namespace
+
+Scene::Scene() : services(std::make_unique<SceneServices>(*this)) {}
+Scene::~Scene() = default;
 
 void SceneDelete::operator()(Scene* scene) const { delete scene; }
 
@@ -38,10 +42,12 @@ ScenePtr Compiler::run() {
     make_shapes();
     make_background();
     make_atmosphere();
+    make_aov_shaders();
     gather_events();
     // Mistakes in expressions are forgiven if the scene says so: their AOVs are black (spec: abort_on_error).
     const std::size_t before = diagnostics_.n_errors();
-    plan_layers({graph_, options_, scene_->summary.light_groups, scene_->events, has_caustics()},
+    plan_layers({graph_, options_, scene_->summary.light_groups, scene_->events, written_aovs_,
+                 has_caustics()},
                 scene_->plan, diagnostics_);
     const std::size_t forgiven = abort_on_error_ ? 0 : diagnostics_.n_errors() - before;
     make_cameras();

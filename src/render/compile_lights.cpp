@@ -1,7 +1,9 @@
 // Lights, and the choice among them. See compiler.h.
 #include <algorithm>
+#include <cmath>
 
 #include "render/compiler.h"
+#include "render/filtered_light.h"
 
 namespace lightsieve {
 
@@ -14,10 +16,14 @@ void Compiler::make_lights() {
         light.light = node->type().make_light(node->block(), context);
         if (!light.light) continue;
         light.common = *node->type().light_common(node->block());
+        add_filters(*node, light);
         light.name = node->name();
         light.group = light.common.aov.empty() ? "default" : light.common.aov.str();
         light.is_skydome = light.light->is_skydome();
-        light.samples_only = !light.common.cast_shadows || light.common.shadow_density != 1 ||
+        // Where a ray to infinity came from is not known when it meets the light, but filters may ask.
+        const bool filtered_sky = light.light->infinite() && !light.common.filters.empty();
+        light.samples_only = filtered_sky || !light.common.cast_shadows ||
+                             light.common.shadow_density != 1 ||
                              !is_black(light.common.shadow_color);
         const auto index = static_cast<std::uint32_t>(scene_->lights.size());
         light_index_[node.get()] = index;
@@ -31,6 +37,44 @@ void Compiler::make_lights() {
         lights.push_back(light.light.get());
     scene_->light_samplers.push_back(std::make_unique<LightSampler>(lights));
     add_light_geometry();
+}
+
+/// Puts the light behind the filters that it names.
+void Compiler::add_filters(const NodeInstance& node, SceneLight& light) {
+    std::vector<std::unique_ptr<LightFilter>> filters;
+    for (const NodeRef& ref : light.common.filters.first_key()) {
+        if (!ref) continue;
+        const NodeType& type = ref.node->type();
+        if (type.make_light_filter == nullptr) {
+            diagnostics_.warning(Code::LinkType,
+                                 "\"" + ref.node->name().str() + "\" is a " + type.name.str() +
+                                     ", not a light filter: it is left out",
+                                 node.where("filters"));
+            continue;
+        }
+        CompileContext context(*this, ref.node, ref.node->name());
+        if (auto filter = type.make_light_filter(ref.node->block(), context, light_place(node)))
+            filters.push_back(std::move(filter));
+    }
+    if (!filters.empty())
+        light.light = std::make_unique<FilteredLight>(std::move(light.light), std::move(filters));
+}
+
+LightPlace Compiler::light_place(const NodeInstance& node) {
+    const LightCommon& common = *node.type().light_common(node.block());
+    LightPlace out;
+    const auto first = [&](const char* param, Vec3f fallback) {
+        const auto* values = node.find<Array<Vec3f>>(param);
+        return values == nullptr || values->empty() ? fallback : (*values)[0];
+    };
+    out.world_from_light = Mat4f::look_at(first("position", {}), first("look_at", {0, 0, -1}),
+                                          first("up", {0, 1, 0}));
+    if (!common.matrix.empty()) out.world_from_light = out.world_from_light * common.matrix[0];
+    out.light_from_world = out.world_from_light.inverse();
+    constexpr float kWidest = 179;  // tangents are tame below it [deg]
+    if (const auto* cone = node.find<float>("cone_angle"); cone != nullptr)
+        out.cone_tangent = std::tan(deg_to_rad(std::clamp(*cone, 0.0F, kWidest) * 0.5F));
+    return out;
 }
 
 /// What rays can meet of the lights.

@@ -1,4 +1,6 @@
 // Shader networks to programs. See compiler.h.
+#include <algorithm>
+
 #include "render/compiler.h"
 
 namespace lightsieve {
@@ -26,7 +28,7 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
     if (const auto known = programs_.find(key); known != programs_.end()) return known->second;
     if (failed_shaders_.count(&node) != 0) return nullptr;
     const NodeType& type = node.type();
-    if (type.eval_closure == nullptr && type.eval_value == nullptr) {
+    if (type.output == OutputType::None) {
         failed_shaders_.insert(&node);
         diagnostics_.error(
             Code::LinkType,
@@ -49,8 +51,7 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
     out->labels = wanted;
     if (first != nullptr) {
         // Only labels differ: what was loaded and reported once is taken over.
-        for (const ShaderProgram::Patch& patch : first->patches())
-            out->add_patch(patch);
+        out->share_links(*first);
         link_closures(node, *out, depth);
     } else {
         link_parameters(node, *out, depth);
@@ -78,16 +79,13 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
 
 void Compiler::link_parameters(const NodeInstance& node, ShaderProgram& program, int depth) {
     for (const Link& link : node.links()) {
-        if (link.element >= 0) {
-            diagnostics_.warning(Code::ParamPending,
-                                 "a link to one element of an array is not supported yet",
-                                 link.where, "the element keeps its own value");
-            continue;
-        }
         const ShaderProgram* source = program_for(*link.source, {}, depth + 1);
         if (source == nullptr) continue;
-        program.add_patch(
-            {link.param->offset, link.param->type, link.component, source, link.source_component});
+        ShaderProgram::Patch patch;
+        patch.component = link.component;
+        patch.source = source;
+        patch.source_component = link.source_component;
+        program.add_link(*link.param, link.element, patch);
     }
 }
 
@@ -178,20 +176,77 @@ ColorInput CompileContext::color_input(Name param) {
     if (node_ == nullptr) return {};
     const ParamInfo* info = node_->type().find(param);
     if (!node_->is_linked(param) || info == nullptr) return ColorInput(node_->get<Color>(param));
-    for (const Link& link : node_->links()) {
-        if (link.param != info) continue;
-        const ShaderProgram* source = compiler_.program_for(*link.source);
+    return compiler_.linked_color(*node_, *info);
+}
+
+ColorInput Compiler::linked_color(const NodeInstance& node, const ParamInfo& param) {
+    auto color = std::make_unique<LinkedColor>();
+    color->written = node.get<Color>(param.name);
+    for (const Link& link : node.links()) {
+        if (link.param != &param) continue;
+        const ShaderProgram* source = program_for(*link.source);
         if (source == nullptr) return ColorInput(kBlack);
-        if (link.component >= 0 || link.source_component >= 0) {
-            diagnostics().warning(Code::ParamPending,
-                                  "a link of a single channel is not supported here yet",
-                                  link.where, "the whole colour of the shader is used");
-        }
-        return {source, [](const void* program, const ShadePoint& at) {
-                    return static_cast<const ShaderProgram*>(program)->value(at);
-                }};
+        ShaderProgram::Patch patch;
+        patch.type = ParamType::Rgb;
+        patch.component = link.component;
+        patch.source = source;
+        patch.source_component = link.source_component;
+        color->links.push_back(patch);
     }
-    return ColorInput(node_->get<Color>(param));
+    scene_->colors.push_back(std::move(color));
+    return {scene_->colors.back().get(), [](const void* linked, const ShadePoint& at) {
+                const auto& c = *static_cast<const LinkedColor*>(linked);
+                ShaderValue out{c.written, 1};
+                for (const ShaderProgram::Patch& patch : c.links)
+                    ShaderProgram::apply(patch, reinterpret_cast<std::byte*>(&out.rgb), at);
+                return out;
+            }};
+}
+
+std::uint32_t Compiler::written_aov(Name aov) {
+    const auto known = std::find(written_aovs_.begin(), written_aovs_.end(), aov);
+    if (known == written_aovs_.end()) {
+        written_aovs_.push_back(aov);
+        return static_cast<std::uint32_t>(written_aovs_.size() - 1);
+    }
+    return static_cast<std::uint32_t>(known - written_aovs_.begin());
+}
+
+float Compiler::frame_number() const {
+    const float* frame =
+        graph_.options() == nullptr ? nullptr : graph_.options()->find<float>("frame");
+    return frame == nullptr ? 1 : *frame;
+}
+
+void Compiler::make_aov_shaders() {
+    const auto* refs = graph_.options() == nullptr
+                           ? nullptr
+                           : graph_.options()->find<Array<NodeRef>>("aov_shaders");
+    if (refs == nullptr) return;
+    for (const NodeRef& ref : refs->first_key())
+        if (const ShaderProgram* program = ref ? program_for(*ref.node) : nullptr)
+            scene_->aov_shaders.push_back(program);
+}
+
+std::vector<Name> CompileContext::user_texts(Name attribute) {
+    std::set<Name> out;
+    for (const auto& node : compiler_.graph().nodes())
+        if (const UserData* data = node->find_user_data(attribute);
+            data != nullptr && data->type == ParamType::String && data->n > 0)
+            for (const Name text : data->values<Name>())
+                out.insert(text);
+    return {out.begin(), out.end()};
+}
+
+std::vector<Name> CompileContext::possible_texts(Name param) {
+    const ParamInfo* info = node_ == nullptr ? nullptr : node_->type().find(param);
+    if (info == nullptr) return {};
+    for (const Link& link : node_->links()) {
+        if (link.param != info || link.source->type().possible_texts == nullptr) continue;
+        CompileContext context(compiler_, link.source, link.source->name());
+        return link.source->type().possible_texts(link.source->block(), context);
+    }
+    return {node_->get<Name>(param)};
 }
 
 NodeContext::Frame CompileContext::frame() const {

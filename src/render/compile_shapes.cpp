@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/compiler.h"
+#include "render/shade_services.h"
 
 namespace lightsieve {
 namespace {
@@ -124,6 +125,7 @@ const ShapeGeometry* Compiler::shared_geometry(const NodeInstance& node) {
     const ShapeCommon& common = *node.type().shape_common(node.block());
     if (geometry) resample_motion(*geometry, {common.motion_start, common.motion_end});
     const ShapeGeometry* out = geometry.get();
+    scene_->services->prepare(node);
     if (geometry) scene_->geometries.push_back(std::move(geometry));
     return geometry_by_node_[&node] = out;
 }
@@ -181,6 +183,8 @@ void Compiler::place_shape(const NodeInstance& node) {
     object.lights = lights_of(node.is_set("use_light_group") ? node : *source);
     object.shadow_lights = shadow_lights_of(node.is_set("use_shadow_group") ? node : *source);
     object.name = node.name();
+    object.node = &node;
+    object.services = scene_->services.get();
     object.id = own("id").id != 0 ? own("id").id : hash_name(node.name().view());
     object.visibility = common.visibility;
     object.sidedness = own("sidedness").sidedness;

@@ -15,6 +15,7 @@
 #include "render/render.h"
 #include "render/scene.h"
 #include "scene/graph.h"
+#include "scene/light_filter.h"
 #include "scene/node_context.h"
 
 namespace lightsieve {
@@ -33,6 +34,14 @@ class Compiler {
     /// The program of a shader node whose events carry these labels; null if it cannot be made (an error was reported).
     [[nodiscard]] const ShaderProgram* program_for(const NodeInstance& node,
                                                    const EventLabels& labels = {}, int depth = 0);
+    /// The camera that the frame is about; null with an error reported if there is none.
+    const NodeInstance* default_camera();
+    [[nodiscard]] const SceneGraph& graph() const { return graph_; }
+    void keep(std::shared_ptr<const void> data) { scene_->kept.push_back(std::move(data)); }
+    [[nodiscard]] float frame_number() const;
+    [[nodiscard]] std::uint32_t written_aov(Name aov);
+    /// A colour parameter of a node that is no shader, with its links.
+    [[nodiscard]] ColorInput linked_color(const NodeInstance& node, const ParamInfo& param);
     /// Geometry of a shape that is not an instance; null with an error reported.
     [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(const NodeInstance& node);
 
@@ -44,7 +53,6 @@ class Compiler {
     void read_settings();
     void read_region();
     void make_cameras();
-    const NodeInstance* default_camera();
     void finish_depth_rules();
     void summarize_scene();
     [[nodiscard]] bool has_caustics() const;
@@ -63,6 +71,7 @@ class Compiler {
     const ShaderProgram* default_shader(const std::string& object_label);
     void make_background();
     void make_atmosphere();
+    void make_aov_shaders();
 
     // compile_shapes.cpp
     void make_shapes();
@@ -83,6 +92,8 @@ class Compiler {
 
     // compile_lights.cpp
     void make_lights();
+    void add_filters(const NodeInstance& node, SceneLight& light);
+    [[nodiscard]] static LightPlace light_place(const NodeInstance& node);
     void add_light_geometry();
 
     // compile_events.cpp
@@ -118,6 +129,7 @@ class Compiler {
     std::map<std::vector<std::uint32_t>, const LightSampler*> samplers_by_group_;
     std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
     std::map<Event, std::uint32_t> event_index_;
+    std::vector<Name> written_aovs_;  ///< AOVs that shaders write, by number
 };
 
 /// What a node may ask of the compiler.
@@ -134,6 +146,12 @@ class CompileContext final : public NodeContext {
     bool is_linked(Name param) const override {
         return node_ != nullptr && node_->is_linked(param);
     }
+    std::vector<Name> user_texts(Name attribute) override;
+    std::vector<Name> possible_texts(Name param) override;
+    void keep(std::shared_ptr<const void> data) override { compiler_.keep(std::move(data)); }
+    float frame_number() const override { return compiler_.frame_number(); }
+    std::uint32_t written_aov(Name aov) override { return compiler_.written_aov(aov); }
+    const NodeInstance* camera() override { return compiler_.default_camera(); }
     TextureCache& textures() override { return compiler_.textures(); }
     std::optional<std::string> find_asset(std::string_view filename) const override {
         return compiler_.assets().find(filename);

@@ -41,6 +41,7 @@ void Film::begin(const Pass& pass, int width, int height) {
         sums.count.assign(n, 0);
         sums.slot_of.assign(n_keys, -1);
         sums.n_slots = 0;
+        sums.written.assign(plan_.written.size(), std::vector<std::array<double, 4>>(n));
         if (!wants_data_ && !sums.closest) continue;
         sums.data.assign(n, {});
         sums.opacity.assign(n, {});
@@ -79,6 +80,7 @@ void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offs
         ++sums.count[pixel];
         sums.alpha[pixel] += double{sample.alpha} * weight;
         add_light(sums, pixel, sample, double{scale}, weight);
+        add_written(sums, pixel, sample, weight);
         if (wants_data_) add_data(sums, pixel, sample.first, weight);
     }
 }
@@ -119,6 +121,20 @@ void Film::add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer&
     for (std::size_t i = 0; i < sums.n_slots; ++i)
         sums.slots[i][pixel] = {};
     add_light(sums, pixel, sample, clamp, 1);
+    for (auto& written : sums.written)
+        written[pixel] = {};
+    add_written(sums, pixel, sample, 1);
+}
+
+void Film::add_written(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample,
+                       double weight) {
+    for (std::size_t i = 0; i < sums.written.size() && i < sample.written.size(); ++i) {
+        std::array<double, 4>& sum = sums.written[i][pixel];
+        const Rgba& v = sample.written[i];
+        for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += double{v.rgb[static_cast<int>(c)]} * weight;
+        sum[3] += double{v.a} * weight;
+    }
 }
 
 void Film::add_data(ViewSums& sums, std::size_t pixel, const FirstHit& f, double weight) {
@@ -252,6 +268,12 @@ void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer,
                                          : static_cast<float>(sums.shadow_mask[i] * norm);
                 break;
             case LayerSource::Id: at[0] = std::bit_cast<float>(f.id); break;
+            case LayerSource::Written:
+                for (std::size_t c = 0; c < channels; ++c)
+                    at[c] = static_cast<float>(sums.written[layer.aov][i][c] * norm);
+                if (layer.info.aov_type == "INT" || layer.info.aov_type == "UINT")
+                    at[0] = std::bit_cast<float>(static_cast<std::int32_t>(std::lround(at[0])));
+                break;
             case LayerSource::Beauty:
             case LayerSource::Expression:
             case LayerSource::Black: break;

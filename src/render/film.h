@@ -5,6 +5,7 @@
 // A film belongs to one thread and one bucket; it is resolved to layers and reused.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -45,6 +46,7 @@ struct SampleBuffer {
     Color beauty;
     float alpha = 0;
     FirstHit first;
+    std::vector<Rgba> written;                ///< AOVs of shaders, by number
     std::vector<Contribution> contributions;  ///< light
     std::vector<Contribution> probes;         ///< albedo: clamping leaves them alone
 
@@ -52,6 +54,7 @@ struct SampleBuffer {
         beauty = {};
         alpha = 0;
         first = {};
+        std::fill(written.begin(), written.end(), Rgba{kBlack, 0});
         contributions.clear();
         probes.clear();
     }
@@ -91,6 +94,7 @@ class Film {
         std::vector<std::array<double, 9>> data;  ///< depth, normal, position, uv
         std::vector<Sum> opacity, volume_opacity, shadow, shadow_difference;
         std::vector<double> shadow_mask;
+        std::vector<std::vector<std::array<double, 4>>> written;  ///< by number, then pixel
         std::vector<FirstHit> nearest;
         std::vector<float> nearest_rank;  ///< the smaller the nearer
         bool closest = false;
@@ -102,6 +106,8 @@ class Film {
     void add_to_atoms(ViewSums& sums, std::size_t pixel,
                       std::span<const SampleBuffer::Contribution> contributions, double factor);
     void add_data(ViewSums& sums, std::size_t pixel, const FirstHit& hit, double weight);
+    static void add_written(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample,
+                            double weight);
     /// For a filter that keeps the nearest sample: lets it take the pixel if it is that.
     void add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample,
                         double clamp, Vec2f offset);

@@ -23,6 +23,8 @@ constexpr int kMaxLightsAlongRay = 256;
 constexpr float kLeastSurvival = 0.05F;
 /// Segments of a path, transparent surfaces included: a guard against geometry that rays cannot leave.
 constexpr std::uint32_t kMaxSegments = 1024;
+/// Of the numbers that shaders' own random numbers start from; the others are small.
+constexpr std::uint32_t kShaderStream = 64;
 
 /// The sampler's pair of dimensions for the path's wavelength; camera_sample has those before it.
 constexpr std::size_t kWavelengthPair = 3;
@@ -60,6 +62,8 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
     sampler_ = &sampler;
     out_ = &out;
     out.clear();
+    out.written.resize(scene_.plan.written.size(), {kBlack, 0});
+    written_.resize(scene_.plan.written.size());
     path_start_ = Color::grey(camera_ray.weight);
     groups_.start(path_start_);
     tracker_.start(path_start_, out);
@@ -73,11 +77,15 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
     n_scatter_ = n_transparent_ = 0;
     n_shadow_rays_ = 0;
     exit_pending_ = false;
+    state.bounces = state.diffuse = state.specular = state.transmission = state.volume = 0;
+    state.camera_from_world = &camera_from_world;
+    state.pixel_angle = camera_ray.spread;
     Ray ray{camera_ray.origin, camera_ray.direction, camera_ray.t_min, camera_ray.t_max, time};
 
     for (segment_ = 0; segment_ < kMaxSegments && wanted(); ++segment_) {
         // Find the next surface, and the lights before it.
         choose_mask_group();
+        update_state();
         if (exit_pending_) add_exit_background(ray);
         lights_only_ = std::all_of(groups_.all().begin(), groups_.all().end(),
                                    [](const PathGroup& g) { return g.key.lights_only; });
@@ -135,12 +143,15 @@ auto Integrator<Tracker>::arrive(Surface& surface, Ray& ray, const Mat4f& camera
         return Arrival::Passed;
     }
     if (object.matte && surface.at.ray_type == RayType::Camera) return Arrival::Ended;
+    surface.at.ray = &state;
+    start_writing();
     tell_path(surface.at, interiors_, surface.shader);
     closures_.begin(surface.at.wo, surface.frame);
     surface.shader->closures(surface.at, closures_);
     counts.dropped_closures += closures_.n_dropped();
     absorb(surface);
     if (pass_hidden_surface(surface, ray)) return Arrival::Passed;
+    if (state.written != nullptr) write_aovs(surface.at);
     if (closures_.shadow_matte() != nullptr) add_shadow_matte(surface, ray);
     if (seen()) note_first_hit(surface, camera_from_world);
     if (!lights_only_) add_emission();
@@ -176,6 +187,23 @@ void Integrator<Tracker>::choose_mask_group() {
     passed_ *= groups_[chosen].key.seen ? total / y : 0;
     groups_.keep_only(chosen, total / y);
     tracker_.keep_only(chosen, total / y);
+}
+
+/// Counts for shaders the event that the ray came by.
+template <class Tracker>
+void Integrator<Tracker>::update_state() {
+    state.seed = static_cast<std::uint32_t>(random(kShaderStream) * 0x1p24F);
+    state.transparent = n_transparent_;
+    if (state.bounces == n_scatter_) return;
+    state.bounces = n_scatter_;
+    switch (groups_[0].key.ray_type) {
+        case RayType::Camera:
+        case RayType::Shadow: break;
+        case RayType::SpecularReflect: ++state.specular; break;
+        case RayType::SpecularTransmit: ++state.transmission; break;
+        case RayType::Volume: ++state.volume; break;
+        default: ++state.diffuse; break;
+    }
 }
 
 template <class Tracker>
@@ -371,7 +399,9 @@ ShaderValue Integrator<Tracker>::background_along(const Ray& ray, bool behind_pi
     at.direction = ray.direction;
     at.wo = -ray.direction;
     at.ray_type = groups_[0].key.ray_type;
-    if (behind_picture) at.uv = {film.x, 1 - film.y};
+    at.ray = &state;
+    at.time = ray.time;
+    if (behind_picture) at.uv = state.screen * 0.5F + Vec2f{0.5F, 0.5F};
     return scene_.background->value(at);
 }
 
@@ -657,6 +687,7 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -
             ShadePoint at = surface.at;
             at.ray_type = RayType::Shadow;
             tell_path(at, inside, surface.shader);
+            at.ray = &state;
             shadow_closures_.begin(at.wo, surface.frame);
             surface.shader->closures(at, shadow_closures_);
             const Color straight = clamp(shadow_closures_.transparency(), 0, 1);

@@ -21,6 +21,7 @@
 #include "render/subsurface_walk.h"
 #include "render/surface.h"
 #include "render/trackers.h"
+#include "scene/shade_services.h"
 
 namespace lightsieve {
 
@@ -44,8 +45,9 @@ class Integrator {
     void trace(const CameraRay& camera_ray, float time, const Mat4f& camera_from_world,
                const Sampler& sampler, SampleBuffer& out);
 
-    Vec2f film;  ///< place of the sample in the frame, see CameraSample; set before `trace`
     TraceCounts counts;
+    /// What shaders see of the sample; its pixel and place in it are set before `trace`, the rest by it.
+    RayState state;
     [[nodiscard]] Tracker& tracker() { return tracker_; }
 
   private:
@@ -85,6 +87,7 @@ class Integrator {
 
     // Steps of `trace`, in order.
     void choose_mask_group();
+    void update_state();
     [[nodiscard]] std::uint32_t ray_mask() const;
     void begin_media(const Ray& ray, float t_end);
     /// Through media and past area lights up to the next surface.
@@ -115,6 +118,8 @@ class Integrator {
     [[nodiscard]] ShadowShown shadow_on(const Surface& surface, const ShadowMatte& matte);
     void note_behind(const Surface& surface, const Mat4f& camera_from_world);
     void add_emission(float factor = 1);
+    void start_writing();
+    void write_aovs(const ShadePoint& at);
     void gather_channels(const Surface& surface);
     void add_probes();
     void choose_probabilities();
@@ -200,12 +205,17 @@ class Integrator {
             closures_.disperses() && !monochromatic_ && dot(wi, surface.outward) < 0;
         return takes ? wavelength_.weight : kWhite;
     }
-    [[nodiscard]] bool wanted() const { return scene_.plan.wants_beauty || tracker_.live(); }
+    /// Whether anybody still asks for light, or for what the camera ray meets.
+    [[nodiscard]] bool wanted() const {
+        return scene_.plan.wants_beauty || tracker_.live() ||
+               (n_scatter_ == 0 && !out_->first.hit);
+    }
 
     const Scene& scene_;
     Tracker tracker_;
     PathGroups groups_;
     ClosureSet closures_, shadow_closures_;
+    std::vector<WrittenAov> written_;  ///< by shaders at the current hit
     const Sampler* sampler_ = nullptr;
     SampleBuffer* out_ = nullptr;
     LastVertex last_;

@@ -34,6 +34,35 @@ std::optional<std::size_t> see_through_lobe(const ClosureSet& closures) {
 
 }  // namespace
 
+/// Shaders write AOVs where the camera looks, through transparent surfaces but not through glass.
+template <class Tracker>
+void Integrator<Tracker>::start_writing() {
+    state.written = n_scatter_ == 0 && !written_.empty() ? written_.data() : nullptr;
+    for (WrittenAov& aov : written_)
+        aov.set = false;
+}
+
+/// Takes over what the surface's shader wrote, and what the scene's aov_shaders write beside it.
+template <class Tracker>
+void Integrator<Tracker>::write_aovs(const ShadePoint& at) {
+    for (const ShaderProgram* shader : scene_.aov_shaders) {
+        shadow_closures_.begin(at.wo, Frame::from_z_x(at.normal, at.tangent));
+        shader->closures(at, shadow_closures_);
+    }
+    const Color opacity = clamp(kWhite - closures_.transparency(), 0, 1);
+    if (is_black(opacity)) return;
+    for (std::size_t i = 0; i < written_.size(); ++i) {
+        const WrittenAov& aov = written_[i];
+        if (!aov.set || !is_finite(aov.value.rgb) || !std::isfinite(aov.value.a)) continue;
+        if (aov.blend) {
+            out_->written[i].rgb += aov.value.rgb * passed_ * opacity;
+            out_->written[i].a += aov.value.a * average(passed_ * opacity);
+        } else if (!out_->first.hit) {
+            out_->written[i] = aov.value;
+        }
+    }
+}
+
 /// Alpha, and what data layers show: the first surface that is not wholly transparent.
 template <class Tracker>
 void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& camera_from_world) {
@@ -128,6 +157,8 @@ ShadowShown Integrator<Tracker>::shadow_on(const Surface& surface, const ShadowM
 }
 
 #define LIGHTSIEVE_FIRST_HIT(Tracker)                                                \
+    template void Integrator<Tracker>::start_writing();                              \
+    template void Integrator<Tracker>::write_aovs(const ShadePoint&);                \
     template void Integrator<Tracker>::note_first_hit(const Surface&, const Mat4f&); \
     template void Integrator<Tracker>::note_behind(const Surface&, const Mat4f&);    \
     template ShadowShown Integrator<Tracker>::shadow_on(const Surface&, const ShadowMatte&);

@@ -43,7 +43,7 @@ std::vector<LoggedPath> log_paths(const Scene& scene) {
                 log.x = x;
                 log.y = y;
                 const CameraSample sample = camera.sample(x, y, static_cast<std::uint32_t>(i));
-                integrator.film = sample.film;
+                integrator.state = sample.state;
                 integrator.trace(sample.ray, sample.time, sample.camera_from_world, sample.sampler,
                                  buffer);
                 const float scale = sample_clamp_factor(scene, buffer.beauty);

@@ -224,7 +224,7 @@ bool Renderer::take_samples(Worker& worker, const CameraSampler& camera, const B
         const std::uint64_t dropped_before = worker.integrator.counts.dropped;
         const CameraSample sample =
             camera.sample(rect.x + x, rect.y + y, static_cast<std::uint32_t>(i));
-        worker.integrator.film = sample.film;
+        worker.integrator.state = sample.state;
         worker.integrator.trace(sample.ray, sample.time, sample.camera_from_world, sample.sampler,
                                 worker.sample);
         if (worker.integrator.counts.dropped != dropped_before)

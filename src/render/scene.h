@@ -25,6 +25,8 @@
 
 namespace lightsieve {
 
+class SceneServices;  // render/shade_services.h
+
 struct SceneLight {
     std::unique_ptr<Light> light;
     LightCommon common;
@@ -59,10 +61,18 @@ struct RenderSettings {
 
 class Scene {
   public:
+    Scene();
+    ~Scene();
+
     RenderSettings settings;
     std::shared_ptr<TextureCache> textures;
     std::vector<std::unique_ptr<ShapeGeometry>> geometries;
     std::vector<std::unique_ptr<ShaderProgram>> shaders;
+    std::vector<const ShaderProgram*> aov_shaders;  ///< run after each shader that the camera sees
+    std::vector<std::shared_ptr<const void>> kept;  ///< what blocks of nodes point to
+    /// Linked colours of lights and other nodes that are no shaders.
+    std::vector<std::unique_ptr<LinkedColor>> colors;
+    std::unique_ptr<SceneServices> services;  ///< what shaders may ask of the scene
     std::vector<SceneObject> objects;
     std::vector<SceneLight> lights;
     std::vector<std::uint32_t> infinite_lights;  ///< indices of lights that rays to infinity meet

@@ -12,6 +12,8 @@
 namespace lightsieve {
 
 class LightSampler;   // render/light_sampler.h
+class NodeInstance;   // scene/graph.h
+class ShadeServices;  // scene/shade_services.h
 class ShaderProgram;  // render/shader_program.h
 
 struct SceneObject {
@@ -23,6 +25,9 @@ struct SceneObject {
     /// Lights that cast shadows on it, one flag a light; empty: all.
     std::vector<bool> shadow_lights;
     Name name;
+    /// The shape or instance in the graph, which outlives the scene: user data.
+    const NodeInstance* node = nullptr;
+    const ShadeServices* services = nullptr;  ///< for shaders
     std::uint32_t id = 0;
     std::uint8_t visibility = 255, sidedness = 255;
     bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;

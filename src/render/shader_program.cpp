@@ -1,11 +1,13 @@
 #include "render/shader_program.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <new>
 
 #include "core/arena.h"
 #include "core/error.h"
+#include "scene/value.h"
 
 namespace lightsieve {
 namespace {
@@ -75,9 +77,9 @@ int n_components(ParamType type) {
     }
 }
 
-void store_value(std::byte* block, const ShaderProgram::Patch& p, const ShaderValue& v,
+/// Writes a linked value into a parameter, as Arnold converts types.
+void store_value(std::byte* at, const ShaderProgram::Patch& p, const ShaderValue& v,
                  OutputType from) {
-    std::byte* at = block + p.offset;
     const bool scalar_source = p.source_component >= 0;
     // A colour that drives a float gives the mean of its channels.
     const float mean = from == OutputType::Float ? v.rgb.r : average(v.rgb);
@@ -96,28 +98,112 @@ void store_value(std::byte* block, const ShaderProgram::Patch& p, const ShaderVa
     }
 }
 
+/// Where an array parameter keeps its data pointer: every Array<T> begins with it.
+std::byte*& array_data(std::byte* param) { return *reinterpret_cast<std::byte**>(param); }
+
 }  // namespace
 
 ShaderProgram::ShaderProgram(const NodeType& type, const std::byte* block)
     : type_(&type),
       block_(static_cast<std::byte*>(
-          ::operator new[](type.block_size, std::align_val_t{kBlockAlign}))) {
+          ::operator new[](type.block_size, std::align_val_t{kBlockAlign}))),
+      scratch_size_(type.block_size) {
     LIGHTSIEVE_ASSERT(type.block_align <= kBlockAlign, type.name.str());
     std::memcpy(block_.get(), block, type.block_size);
 }
 
+void ShaderProgram::add_link(const ParamInfo& param, std::int32_t element, Patch patch) {
+    patch.type = param.type;
+    if (param.lazy_offset != 0) {
+        auto& link = *reinterpret_cast<LazyLink*>(block_.get() + param.lazy_offset);
+        if (link.links == nullptr) {
+            lazy_.push_back(std::make_shared<LazyPatches>());
+            link.links = lazy_.back().get();
+            link.apply = [](const void* links, void* value, const ShadePoint& at) {
+                for (const Patch& p : *static_cast<const LazyPatches*>(links))
+                    apply(p, static_cast<std::byte*>(value), at);
+            };
+        }
+        // The block was made by add_link, so the list is one of ours.
+        patch.offset = 0;
+        const_cast<LazyPatches*>(static_cast<const LazyPatches*>(link.links))->push_back(patch);
+        return;
+    }
+    patch.offset = param.offset;
+    if (param.is_array && element >= 0) {
+        const auto& values =
+            *reinterpret_cast<const Array<std::byte>*>(block_.get() + param.offset);
+        if (static_cast<std::uint32_t>(element) >= values.n) return;
+        const auto known = std::find_if(arrays_.begin(), arrays_.end(), [&](const LinkedArray& a) {
+            return a.offset == param.offset;
+        });
+        patch.array = static_cast<int>(known - arrays_.begin());
+        patch.offset = static_cast<std::size_t>(element) * type_size(param.type);
+        if (known == arrays_.end()) {
+            const std::size_t n_bytes =
+                std::size_t{values.n} * values.n_keys * type_size(param.type);
+            const std::size_t place =
+                (scratch_size_ + kBlockAlign - 1) / kBlockAlign * kBlockAlign;
+            arrays_.push_back({param.offset, n_bytes, place});
+            scratch_size_ = place + n_bytes;
+        }
+    }
+    patches_.push_back(patch);
+}
+
+void ShaderProgram::share_links(const ShaderProgram& other) {
+    patches_ = other.patches_;
+    arrays_ = other.arrays_;
+    lazy_ = other.lazy_;
+    scratch_size_ = other.scratch_size_;
+}
+
+void ShaderProgram::apply(const Patch& p, std::byte* at, const ShadePoint& point) {
+    const OutputType from = p.source->type().output;
+    if (from == OutputType::String) {
+        if (p.type == ParamType::String) store(at, p.source->text(point));
+    } else if (from == OutputType::Matrix) {
+        if (p.type == ParamType::Matrix) store(at, p.source->matrix(point));
+    } else if (p.type != ParamType::String && p.type != ParamType::Matrix) {
+        store_value(at, p, p.source->value(point), from);
+    }
+}
+
 void ShaderProgram::patch(std::byte* copy, const ShadePoint& at) const {
     std::memcpy(copy, block_.get(), type_->block_size);
-    for (const Patch& p : patches_)
-        store_value(copy, p, p.source->value(at), p.source->type().output);
+    for (const LinkedArray& array : arrays_) {
+        std::byte*& data = array_data(copy + array.offset);
+        std::memcpy(copy + array.place, data, array.n_bytes);
+        data = copy + array.place;
+    }
+    for (const Patch& p : patches_) {
+        std::byte* target =
+            p.array < 0 ? copy : copy + arrays_[static_cast<std::size_t>(p.array)].place;
+        apply(p, target + p.offset, at);
+    }
+}
+
+template <class Body>
+auto ShaderProgram::with_block(const ShadePoint& at, const Body& body) const {
+    if (patches_.empty()) return body(static_cast<const void*>(block_.get()));
+    const Scratch copy(scratch_size_);
+    patch(copy.bytes(), at);
+    return body(static_cast<const void*>(copy.bytes()));
 }
 
 ShaderValue ShaderProgram::value(const ShadePoint& at) const {
     if (type_->eval_value == nullptr) return {kBlack, 1};
-    if (patches_.empty()) return type_->eval_value(block_.get(), at);
-    const Scratch copy(type_->block_size);
-    patch(copy.bytes(), at);
-    return type_->eval_value(copy.bytes(), at);
+    return with_block(at, [&](const void* block) { return type_->eval_value(block, at); });
+}
+
+Name ShaderProgram::text(const ShadePoint& at) const {
+    if (type_->eval_text == nullptr) return {};
+    return with_block(at, [&](const void* block) { return type_->eval_text(block, at); });
+}
+
+Mat4f ShaderProgram::matrix(const ShadePoint& at) const {
+    if (type_->eval_matrix == nullptr) return {};
+    return with_block(at, [&](const void* block) { return type_->eval_matrix(block, at); });
 }
 
 void ShaderProgram::closures(const ShadePoint& at, ClosureSet& out) const {
@@ -126,15 +212,10 @@ void ShaderProgram::closures(const ShadePoint& at, ClosureSet& out) const {
     const IndirectFactors outer_indirect = out.indirect();
     out.set_records(records);
     out.set_indirect({});
-    if (type_->eval_closure == nullptr) {
+    if (type_->eval_closure == nullptr)
         out.emit(0, value(at).rgb);
-    } else if (patches_.empty()) {
-        type_->eval_closure(block_.get(), at, out);
-    } else {
-        const Scratch copy(type_->block_size);
-        patch(copy.bytes(), at);
-        type_->eval_closure(copy.bytes(), at, out);
-    }
+    else
+        with_block(at, [&](const void* block) { type_->eval_closure(block, at, out); });
     out.set_records(outer);
     out.set_indirect(outer_indirect);
 }

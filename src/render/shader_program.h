@@ -27,26 +27,38 @@ struct EventLabels {
 
 class ShaderProgram {
   public:
-    /// One linked parameter (or component of one).
+    /// One linked parameter (or element or component of one).
     struct Patch {
-        std::size_t offset = 0;  ///< of the parameter in the block
+        std::size_t offset = 0;  ///< of the parameter in the block; within its elements for arrays
         ParamType type{};        ///< of the parameter
         int component = -1;      ///< 0..3, or -1: the whole value
         const ShaderProgram* source = nullptr;
         int source_component = -1;  ///< 0..3, or -1: the whole value
+        int array = -1;             ///< of an array: which one of the program's linked arrays
     };
+    /// Links into one Lazy parameter; offsets count from its value.
+    using LazyPatches = std::vector<Patch>;
 
     ShaderProgram(const NodeType& type, const std::byte* block);
 
-    /// Adds a link. The source must be complete before the first evaluation.
-    void add_patch(const Patch& patch) { patches_.push_back(patch); }
-    [[nodiscard]] const std::vector<Patch>& patches() const { return patches_; }
+    /// Adds a link. The source must be complete before the first evaluation. For `element` >= 0 the parameter is an array.
+    void add_link(const ParamInfo& param, std::int32_t element, Patch patch);
+    /// Finds a linked value and writes it to the parameter, or element, at `at`.
+    static void apply(const Patch& patch, std::byte* at, const ShadePoint& point);
+    /// Takes over all links of another program of the same node.
+    void share_links(const ShaderProgram& other);
+    /// Whether anything drives a parameter.
+    [[nodiscard]] bool is_linked() const { return !patches_.empty() || !lazy_.empty(); }
     [[nodiscard]] const NodeType& type() const { return *type_; }
     [[nodiscard]] std::byte* block() { return block_.get(); }
     [[nodiscard]] const std::byte* block() const { return block_.get(); }
 
-    /// Result of a value shader; of a closure shader black.
+    /// Result of a value shader; of others black.
     [[nodiscard]] ShaderValue value(const ShadePoint& at) const;
+    /// Result of a shader that gives text; of others empty.
+    [[nodiscard]] Name text(const ShadePoint& at) const;
+    /// Result of a shader that gives a matrix; of others the identity.
+    [[nodiscard]] Mat4f matrix(const ShadePoint& at) const;
     /// Adds the shader's closures. A value shader is shown unlit: its colour is emission through lobe 0.
     void closures(const ShadePoint& at, ClosureSet& out) const;
 
@@ -67,12 +79,30 @@ class ShaderProgram {
     struct FreeBlock {
         void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t{16}); }
     };
-    /// Copies the block and writes the linked values into the copy.
+    /// An array of which elements are linked: copied with the block.
+    struct LinkedArray {
+        std::size_t offset = 0;   ///< of the parameter in the block
+        std::size_t n_bytes = 0;  ///< of all elements
+        std::size_t place = 0;    ///< of the elements' copy behind the block's
+    };
+    /// Calls `body` with the block, linked values written into a copy of it where there are any.
+    template <class Body>
+    auto with_block(const ShadePoint& at, const Body& body) const;
     void patch(std::byte* copy, const ShadePoint& at) const;
 
     const NodeType* type_;
     std::unique_ptr<std::byte[], FreeBlock> block_;
+    std::size_t scratch_size_;  ///< of a copy: the block and linked arrays
     std::vector<Patch> patches_;
+    std::vector<LinkedArray> arrays_;
+    /// Links into Lazy parameters, whose blocks point here; programs of one node share them.
+    std::vector<std::shared_ptr<LazyPatches>> lazy_;
+};
+
+/// A colour parameter of a node that is no shader, with what is linked to it or its channels.
+struct LinkedColor {
+    Color written;
+    std::vector<ShaderProgram::Patch> links;
 };
 
 }  // namespace lightsieve

@@ -30,7 +30,8 @@ struct LocalPoint {
     Vec3f geometric_normal;  ///< not normalised
     /// World space, as modelled (not turned to the viewer), not normalised; zero: the geometric one.
     Vec3f shading_normal;
-    Vec3f dp_du;  ///< zero if there is no uv
+    Vec3f dp_du;         ///< direction of the frame's x axis; zero if there is no uv
+    Vec3f uv_du, uv_dv;  ///< dP/du and dP/dv of `uv`; zero if there is none
     Vec2f uv;
     float uv_per_unit = 0;  ///< uv length per object-space length
     std::uint32_t face = 0;
@@ -98,7 +99,8 @@ LocalPoint resolve(const TriangleMesh& mesh, const RayHit& hit, const View& view
     const float det = d1.x * d2.y - d1.y * d2.x;
     const float twice_area = length(out.geometric_normal);
     if (det == 0 || !(twice_area > 0)) return out;
-    out.dp_du = ((p1 - p0) * d2.y - (p2 - p0) * d1.y) / det;
+    out.dp_du = out.uv_du = ((p1 - p0) * d2.y - (p2 - p0) * d1.y) / det;
+    out.uv_dv = ((p2 - p0) * d1.x - (p1 - p0) * d2.x) / det;
     out.uv_per_unit = std::sqrt(std::abs(det) / twice_area);
     return out;
 }
@@ -114,6 +116,10 @@ LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const View& vie
     out.uv = {0.5F + std::atan2(n.x, n.z) * (0.5F * kInvPi),
               0.5F + std::asin(std::clamp(n.y, -1.0F, 1.0F)) * kInvPi};
     out.uv_per_unit = radius > 0 ? 1 / (kPi * radius) : 0;
+    const float level = std::sqrt(n.x * n.x + n.z * n.z);  // cosine of the latitude
+    out.uv_du = out.dp_du * (2 * kPi * radius);
+    if (level > 0)
+        out.uv_dv = Vec3f{-n.y * n.x / level, level, -n.y * n.z / level} * (kPi * radius);
     return out;
 }
 
@@ -204,6 +210,9 @@ LocalPoint resolve(const CurveList& curves, const RayHit& hit, const View& view)
     if (curves.uvs.empty()) {
         const float speed = length(at.derivative);
         out.uv_per_unit = speed > 0 ? (segment.v1 - segment.v0) / speed : 0;
+        const float dv = segment.v1 - segment.v0;
+        out.uv_du = y * (2 * radius);
+        if (dv > 0) out.uv_dv = at.derivative / dv;
     }
     out.face = segment.curve;
     return out;
@@ -238,11 +247,16 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     at.tangent = out.frame.x;
     at.uv = local.uv;
     at.barycentric = hit.barycentric;
+    at.dp_du = place.world_from_object.vector(local.uv_du);
+    at.dp_dv = place.world_from_object.vector(local.uv_dv);
+    at.width = footprint.width + footprint.spread * hit.t;
+    at.ray_length = hit.t;
+    at.primitive = hit.primitive;
+    at.services = object.services;
     if (local.uv_per_unit > 0) {
         const float cosine = std::max(0.1F, std::abs(dot(geometric, wo)));
         const float scale = length(local.dp_du) > 0 ? length(tangent) / length(local.dp_du) : 1;
-        at.uv_width = local.uv_per_unit * (footprint.width + footprint.spread * hit.t) /
-                      (cosine * std::max(scale, 1e-20F));
+        at.uv_width = local.uv_per_unit * at.width / (cosine * std::max(scale, 1e-20F));
     }
     at.face = local.face;
     if (local.on_curve) {
@@ -296,6 +310,19 @@ LightHit make_light_hit(const SceneObject& object, const Ray& ray, const RayHit&
     return with_placement(object, ray.time, [&](const Placement& place) {
         return light_hit_at(place, object, ray, hit);
     });
+}
+
+Mat4f placement_at(const SceneObject& object, float time) {
+    return with_placement(object, time,
+                          [](const Placement& place) { return place.world_from_object; });
+}
+
+std::array<Vec3f, 3> triangle_corners(const TriangleMesh& mesh, std::uint32_t triangle,
+                                      float time) {
+    const AtTime positions(mesh.positions, time);
+    const std::size_t t = std::size_t{triangle} * 3;
+    return {positions[mesh.indices[t]], positions[mesh.indices[t + 1]],
+            positions[mesh.indices[t + 2]]};
 }
 
 }  // namespace lightsieve

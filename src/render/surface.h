@@ -1,6 +1,8 @@
 // From a ray's hit to the point that shaders see.
 #pragma once
 
+#include <array>
+
 #include "core/vec.h"
 #include "render/ray.h"
 #include "render/scene.h"
@@ -37,5 +39,12 @@ struct Footprint {
 /// The same as far as lights need it: position, outward normal as modelled, uv.
 [[nodiscard]] LightHit make_light_hit(const SceneObject& object, const Ray& ray,
                                       const RayHit& hit);
+
+/// Placement of an object at a time within the shutter.
+[[nodiscard]] Mat4f placement_at(const SceneObject& object, float time);
+
+/// Corners of a triangle at a time, object space.
+[[nodiscard]] std::array<Vec3f, 3> triangle_corners(const TriangleMesh& mesh,
+                                                    std::uint32_t triangle, float time);
 
 }  // namespace lightsieve

@@ -70,12 +70,13 @@ ShadePoint shade_point(const SceneVolume& volume, Vec3f position, Vec3f wo, floa
     at.ray_type = ray_type;
     at.shape_id = volume.object.id;
     at.shape = &volume.object;
+    at.services = volume.object.services;
     return at;
 }
 
 /// Whether a network's answer depends on more than the channels.
 bool is_textured(const ShaderProgram& program) {
-    return !program.patches().empty() ||
+    return program.is_linked() ||
            std::any_of(program.parts.begin(), program.parts.end(),
                        [](const ShaderProgram* part) { return is_textured(*part); });
 }

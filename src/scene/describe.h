@@ -7,11 +7,12 @@
 //         return d.done();
 //     }
 //
-// `done()` finds the functions that the struct has: eval, prepare, make_light, make_geometry, make_camera,
-// make_filter, make_driver. Types and offsets come from the member pointers: nothing is written twice.
+// `done()` finds the functions that the struct has: eval, prepare, make_light, make_light_filter, make_geometry,
+// make_camera, make_filter, make_driver, possible_texts. Types and offsets come from the member pointers: nothing is written twice.
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstring>
 #include <type_traits>
 
@@ -25,6 +26,13 @@ template <class M>
 struct IsArray : std::false_type {};
 template <class E>
 struct IsArray<Array<E>> : std::true_type {
+    using Element = E;
+};
+
+template <class M>
+struct IsLazy : std::false_type {};
+template <class E>
+struct IsLazy<Lazy<E>> : std::true_type {
     using Element = E;
 };
 
@@ -63,17 +71,25 @@ constexpr ParamType param_type() {
 }
 
 inline ShaderValue to_value(float v) { return {{v, v, v}, v}; }
+inline ShaderValue to_value(std::int32_t v) { return to_value(static_cast<float>(v)); }
+inline ShaderValue to_value(bool v) { return to_value(v ? 1.0F : 0.0F); }
 inline ShaderValue to_value(Color v) { return {v, 1}; }
+inline ShaderValue to_value(Vec2f v) { return {{v.x, v.y, 0}, 1}; }
 inline ShaderValue to_value(Vec3f v) { return {{v.x, v.y, v.z}, 1}; }
 inline ShaderValue to_value(Rgba v) { return v; }
 template <class R>
 constexpr OutputType output_type() {
-    if constexpr (std::is_same_v<R, float>)
+    if constexpr (std::is_same_v<R, float> || std::is_same_v<R, std::int32_t> ||
+                  std::is_same_v<R, bool>)
         return OutputType::Float;
     else if constexpr (std::is_same_v<R, Color>)
         return OutputType::Rgb;
-    else if constexpr (std::is_same_v<R, Vec3f>)
+    else if constexpr (std::is_same_v<R, Vec3f> || std::is_same_v<R, Vec2f>)
         return OutputType::Vector;
+    else if constexpr (std::is_same_v<R, Name>)
+        return OutputType::String;
+    else if constexpr (std::is_same_v<R, Mat4f>)
+        return OutputType::Matrix;
     else
         return OutputType::Rgba;
 }
@@ -134,22 +150,14 @@ class Describe {
     template <class Owner, class M>
         requires std::derived_from<T, Owner>
     ParamBuilder param(const char* name, M Owner::* member, std::string doc) {
-        using namespace describe_detail;
-        ParamInfo info;
-        info.name = name;
-        info.doc = std::move(doc);
-        if constexpr (IsArray<M>::value) {
-            info.is_array = true;
-            info.type = param_type<typename IsArray<M>::Element>();
-        } else {
-            info.type = param_type<M>();
-            if constexpr (std::is_enum_v<M>) static_assert(sizeof(M) == sizeof(std::int32_t));
-        }
-        info.offset =
-            static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(defaults_.*member)) -
-                                     reinterpret_cast<const std::byte*>(&defaults_));
-        type_.params.push_back(std::move(info));
-        return ParamBuilder(type_.params.back());
+        return add(name, defaults_.*member, std::move(doc));
+    }
+    /// The same for a part of a member: `of(defaults)` gives it by reference. For nodes with many inputs of one kind:
+    ///
+    ///     d.part("input" + n, [i](Switch& p) -> Rgba& { return p.input[i]; }, "...");
+    template <class Of>
+    ParamBuilder part(const std::string& name, const Of& of, std::string doc) {
+        return add(name, of(defaults_), std::move(doc));
     }
 
     /// Declares lobe number `index`; indices count from 0 in the order of declaration.
@@ -179,6 +187,16 @@ class Describe {
             type_.make_light = [](const void* block, NodeContext& c) {
                 return static_cast<const T*>(block)->make_light(c);
             };
+        if constexpr (requires(const T& t, NodeContext& c, const LightPlace& p) {
+                          t.make_light_filter(c, p);
+                      })
+            type_.make_light_filter = [](const void* block, NodeContext& c, const LightPlace& p) {
+                return static_cast<const T*>(block)->make_light_filter(c, p);
+            };
+        if constexpr (requires(const T& t, NodeContext& c) { t.possible_texts(c); })
+            type_.possible_texts = [](const void* block, NodeContext& c) {
+                return static_cast<const T*>(block)->possible_texts(c);
+            };
         if constexpr (requires(const T& t, NodeContext& c) { t.make_geometry(c); })
             type_.make_geometry = [](const void* block, NodeContext& c) {
                 return static_cast<const T*>(block)->make_geometry(c);
@@ -207,6 +225,29 @@ class Describe {
     }
 
   private:
+    template <class M>
+    ParamBuilder add(const std::string& name, const M& value, std::string doc) {
+        using namespace describe_detail;
+        ParamInfo info;
+        info.name = name;
+        info.doc = std::move(doc);
+        info.offset = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&value) -
+                                               reinterpret_cast<const std::byte*>(&defaults_));
+        if constexpr (IsArray<M>::value) {
+            info.is_array = true;
+            info.type = param_type<typename IsArray<M>::Element>();
+        } else if constexpr (IsLazy<M>::value) {
+            static_assert(std::is_standard_layout_v<M>, "the value lies first");
+            info.type = param_type<typename IsLazy<M>::Element>();
+            info.lazy_offset = info.offset + offsetof(M, link);
+        } else {
+            info.type = param_type<M>();
+            if constexpr (std::is_enum_v<M>) static_assert(sizeof(M) == sizeof(std::int32_t));
+        }
+        type_.params.push_back(std::move(info));
+        return ParamBuilder(type_.params.back());
+    }
+
     void add_shading() {
         if constexpr (requires(const T& t, const ShadePoint& at, ClosureSet& out) {
                           t.eval(at, out);
@@ -225,11 +266,20 @@ class Describe {
                         std::declval<const ShadePoint&>()))>();
             }
         } else if constexpr (requires(const T& t, const ShadePoint& at) { t.eval(at); }) {
-            type_.eval_value = [](const void* block, const ShadePoint& at) {
-                return describe_detail::to_value(static_cast<const T*>(block)->eval(at));
+            using Result =
+                decltype(std::declval<const T&>().eval(std::declval<const ShadePoint&>()));
+            type_.output = describe_detail::output_type<Result>();
+            const auto eval = [](const void* block, const ShadePoint& at) {
+                return static_cast<const T*>(block)->eval(at);
             };
-            type_.output = describe_detail::output_type<decltype(std::declval<const T&>().eval(
-                std::declval<const ShadePoint&>()))>();
+            if constexpr (std::is_same_v<Result, Name>)
+                type_.eval_text = eval;
+            else if constexpr (std::is_same_v<Result, Mat4f>)
+                type_.eval_matrix = eval;
+            else
+                type_.eval_value = [](const void* block, const ShadePoint& at) {
+                    return describe_detail::to_value(static_cast<const T*>(block)->eval(at));
+                };
         }
     }
 

@@ -35,6 +35,9 @@ bool is_old_param(Name type, Name param) {
     });
 }
 
+/// Whether nodes of a type have parameters and outputs that only their own source knows.
+bool has_inputs_of_its_own(Name type) { return type.view() == "osl"; }
+
 bool is_reference(ParamType type) { return type == ParamType::Node || type == ParamType::Closure; }
 
 /// Every Array<T> has the same layout.
@@ -279,7 +282,7 @@ void GraphEditor::read_param(NodeInstance& node, const Statement& statement) {
 void GraphEditor::unknown_param(const NodeInstance& node, const Statement& statement) {
     const NodeType& type = node.type();
     const Name name = statement.param->name;
-    if (is_old_param(type.name, name)) return;
+    if (is_old_param(type.name, name) || has_inputs_of_its_own(type.name)) return;
     ++graph_.n_unknown_params_;
     if (unknown_ == UnknownPolicy::Ignore) return;
     const std::string key = fmt::format("param {}.{}", type.name.view(), name.view());
@@ -460,7 +463,12 @@ ParamReader GraphEditor::reader(Diagnostics& diagnostics, bool quiet_references)
 
 bool GraphEditor::reads_as_link(const ParamInfo& info, const ParamText& param,
                                 const std::string& text) const {
-    if (info.type == ParamType::String || is_reference(info.type)) return false;
+    if (is_reference(info.type)) return false;
+    if (info.type == ParamType::String) {
+        // A text, unless it is the name of a node that gives texts.
+        const NodeInstance* node = graph_.find(Name(text));
+        return node != nullptr && node->type().output == OutputType::String;
+    }
     if (param.component >= 0) return true;
     if (info.type == ParamType::Bool && parse_bool(text)) return false;
     if (info.type == ParamType::Enum && find_enumerator(info, text) >= 0) return false;
@@ -507,9 +515,17 @@ bool GraphEditor::link_fits(const NodeInstance& node, const ParamInfo& info, con
                             where);
         return false;
     }
-    if (info.type == ParamType::Matrix) {
+    const auto wants = [&](ParamType param, OutputType output) {
+        return (info.type == param) != (type.output == output);
+    };
+    if (wants(ParamType::Matrix, OutputType::Matrix) ||
+        wants(ParamType::String, OutputType::String)) {
         diagnostics_->warning(
-            Code::LinkType, fmt::format("{} is a MATRIX: links to it are ignored", target), where);
+            Code::LinkType,
+            fmt::format("{} is a {}, which \"{}\", a {}, does not give: the link is ignored",
+                        target, type_text(info.type), source.node->name().view(),
+                        type.name.view()),
+            where);
         return false;
     }
     if (type.output == OutputType::Closure) {
@@ -541,6 +557,7 @@ GraphEditor::Found GraphEditor::find_source(const std::string& text, const Sourc
     }
     const std::int8_t component = parse_component(suffix);
     if (component >= 0) return {node, component};
+    if (has_inputs_of_its_own(node->type().name)) return {node, -1};
     diagnostics_->error(
         Code::UnknownReference,
         fmt::format("\"{}\", a {}, has no output \"{}\"", name, node->type().name.view(), suffix),

@@ -1,8 +1,11 @@
 // What a node may ask of its surroundings while a scene is compiled.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/diagnostics.h"
 #include "scene/node_type.h"
@@ -47,6 +50,18 @@ class NodeContext {
     [[nodiscard]] virtual ColorInput color_input(Name param) = 0;
     /// Whether a shader drives the parameter or one of its components.
     [[nodiscard]] virtual bool is_linked(Name param) const = 0;
+    /// Every text that shapes of the scene carry as user data of that name.
+    [[nodiscard]] virtual std::vector<Name> user_texts(Name /*attribute*/) { return {}; }
+    /// Every text that the STRING parameter `param` may take: what it says, or what is linked to it may give.
+    [[nodiscard]] virtual std::vector<Name> possible_texts(Name /*param*/) { return {}; }
+    /// Keeps what prepare() makes for a block, which can only point to it, as long as the scene lives.
+    virtual void keep(std::shared_ptr<const void> data) { kept_.push_back(std::move(data)); }
+    /// options.frame.
+    [[nodiscard]] virtual float frame_number() const { return 1; }
+    /// The number under which shaders write values of an AOV of their own (RayState::written).
+    [[nodiscard]] virtual std::uint32_t written_aov(Name /*aov*/) { return 0; }
+    /// The camera that the frame is about; null if the scene has none.
+    [[nodiscard]] virtual const NodeInstance* camera() { return nullptr; }
     /// Textures of the render; the cache outlives the scene.
     [[nodiscard]] virtual TextureCache& textures() = 0;
     /// Full path of an asset after environment variables and search paths, or nothing if no such file exists.
@@ -63,6 +78,9 @@ class NodeContext {
     /// Geometry of another shape node (mesh_light.mesh), in that shape's object space with its first matrix key; null with an error reported.
     [[nodiscard]] virtual std::unique_ptr<ShapeGeometry> geometry_of(NodeRef shape,
                                                                      Mat4f& world_from_object) = 0;
+
+  private:
+    std::vector<std::shared_ptr<const void>> kept_;
 };
 
 }  // namespace lightsieve

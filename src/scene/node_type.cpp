@@ -28,8 +28,8 @@ constexpr std::array<TypeRow, 14> kTypes{{
 }};
 
 /// In the order of NodeKind.
-constexpr std::array<std::string_view, 7> kKinds{"options", "camera", "shape", "light",
-                                                 "shader",  "filter", "driver"};
+constexpr std::array<std::string_view, 8> kKinds{"options", "camera", "shape",  "light",
+                                                 "shader",  "filter", "driver", "light filter"};
 
 }  // namespace
 

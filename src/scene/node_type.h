@@ -21,27 +21,39 @@ class Camera;        // scene/camera.h
 class ClosureSet;    // bsdf/closure.h
 class Driver;        // scene/driver.h
 class Light;         // scene/light.h
+class LightFilter;   // scene/light_filter.h
 class PixelFilter;   // scene/pixel_filter.h
 class NodeContext;   // scene/node_context.h
 struct LightCommon;  // scene/light.h
+struct LightPlace;   // scene/light_filter.h
 struct ShadePoint;   // scene/shade_point.h
 struct ShapeCommon;  // scene/shape.h
 struct ShapeGeometry;
 
-enum class NodeKind : std::uint8_t { Options, Camera, Shape, Light, Shader, Filter, Driver };
+enum class NodeKind : std::uint8_t {
+    Options,
+    Camera,
+    Shape,
+    Light,
+    Shader,
+    Filter,
+    Driver,
+    LightFilter
+};
 [[nodiscard]] std::string_view kind_text(NodeKind kind);
 
 /// What a shader gives when another parameter links to it.
-enum class OutputType : std::uint8_t { None, Float, Vector, Rgb, Rgba, Closure };
+enum class OutputType : std::uint8_t { None, Float, Vector, Rgb, Rgba, Closure, String, Matrix };
 
 /// One parameter of a node type.
 struct ParamInfo {
     Name name;
     ParamType type{};
     bool is_array = false;
-    std::size_t offset = 0;  ///< bytes from the start of the block
-    std::string doc;         ///< one line
-    std::string unit;        ///< e.g. "deg", "scene units"; empty if none
+    std::size_t offset = 0;       ///< bytes from the start of the block
+    std::size_t lazy_offset = 0;  ///< of a Lazy parameter's LazyLink; 0: the parameter is plain
+    std::string doc;              ///< one line
+    std::string unit;             ///< e.g. "deg", "scene units"; empty if none
     std::optional<float> low,
         high;  ///< sensible range; values outside are clamped with a warning where `hard`
     bool hard_range = false;               ///< values outside make no sense (negative roughness)
@@ -84,9 +96,15 @@ struct NodeType {
     // The functions that a node kind has; null where it does not apply. `block` always points to the parameter struct.
     void (*eval_closure)(const void* block, const ShadePoint& at, ClosureSet& out) = nullptr;
     ShaderValue (*eval_value)(const void* block, const ShadePoint& at) = nullptr;
+    Name (*eval_text)(const void* block, const ShadePoint& at) = nullptr;     ///< output String
+    Mat4f (*eval_matrix)(const void* block, const ShadePoint& at) = nullptr;  ///< output Matrix
+    /// Output String: every text that eval_text may ever give in this scene, so that files can be opened before rendering.
+    std::vector<Name> (*possible_texts)(const void* block, NodeContext& context) = nullptr;
     /// Called once before rendering: loads what the node needs, reports what is wrong. May change the block.
     void (*prepare)(void* block, NodeContext& context) = nullptr;
     std::unique_ptr<Light> (*make_light)(const void* block, NodeContext& context) = nullptr;
+    std::unique_ptr<LightFilter> (*make_light_filter)(const void* block, NodeContext& context,
+                                                      const LightPlace& place) = nullptr;
     std::unique_ptr<ShapeGeometry> (*make_geometry)(const void* block,
                                                     NodeContext& context) = nullptr;
     std::unique_ptr<Camera> (*make_camera)(const void* block, NodeContext& context) = nullptr;

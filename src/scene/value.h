@@ -63,6 +63,28 @@ struct ShaderRef {
     friend bool operator==(ShaderRef, ShaderRef) = default;
 };
 
+/// How a `Lazy` parameter finds what is linked to it; filled in when the shader network is compiled.
+struct LazyLink {
+    const void* links = nullptr;  ///< null: nothing is linked
+    /// Writes the linked values, or components, over `value`, which holds what the file says.
+    void (*apply)(const void* links, void* value, const ShadePoint& at) = nullptr;
+};
+
+/// A parameter that its node asks for itself: never (switch_rgba), often (bump2d), at another point (uv_transform). Plain
+/// parameters are found once, before `eval`. Read and described as a T.
+template <class T>
+struct Lazy {
+    T value{};  ///< what the file says, or the default
+    LazyLink link;
+
+    [[nodiscard]] bool linked() const { return link.links != nullptr; }
+    [[nodiscard]] T at(const ShadePoint& point) const {
+        T out = value;
+        if (link.links != nullptr) link.apply(link.links, &out, point);
+        return out;
+    }
+};
+
 /// An array parameter: `n_keys` motion keys of `n` elements each, key after key. The node instance owns the data.
 template <class T>
 struct Array {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstring>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -29,6 +30,10 @@ class TestContext final : public NodeContext {
     [[nodiscard]] bool is_linked(Name param) const override {
         return linked.contains(param.str());
     }
+    [[nodiscard]] std::vector<Name> possible_texts(Name param) override {
+        const auto found = texts.find(param.str());
+        return found == texts.end() ? std::vector<Name>{} : found->second;
+    }
     [[nodiscard]] TextureCache& textures() override {
         report_bug("no textures in this test", __FILE__, __LINE__, "");
     }
@@ -50,6 +55,7 @@ class TestContext final : public NodeContext {
     }
 
     std::set<std::string> linked;
+    std::map<std::string, std::vector<Name>> texts;  ///< for possible_texts, by parameter
     Frame size{160, 120, 1};
 
   private:

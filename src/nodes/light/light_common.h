@@ -4,7 +4,7 @@
 // does not depend on its size: I is its radiant intensity along the normal, so an area has the radiance I / area.
 // Without, I is the radiance itself. Bad numbers are errors at their place in the scene; a light without area is a
 // warning and black.
-// Left out, with a warning where used: light filters, motion (the first key holds).
+// Left out, with a warning where used: motion (the first key holds).
 #pragma once
 
 #include <array>
@@ -60,8 +60,8 @@ void describe_light_common(Describe<T>& d) {
         .range(0, 999);
     d.param("aov", &LightCommon::aov,
             "Light group of the light path expressions; empty or \"default\": none.");
-    d.param("filters", &LightCommon::filters, "Light filters (decay, barn doors, gobos).")
-        .pending();
+    d.param("filters", &LightCommon::filters,
+            "Light filters (decay, barn doors, blockers, gobos), which act one after the other.");
     d.param("matrix", &LightCommon::matrix,
             "Placement in the world, row vectors; lights shine along local -Z.");
     d.param("motion_start", &LightCommon::motion_start, "Time of the first motion key.")

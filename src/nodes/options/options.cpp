@@ -220,8 +220,7 @@ void describe_nodes(Describe<Options>& d) {
             "Last node of a chain that edits the scene before rendering.")
         .pending();
     d.param("aov_shaders", &Options::aov_shaders,
-            "Shaders that run after each surface shader, to write AOVs.")
-        .pending();
+            "Shaders that run after each surface shader, to write AOVs.");
     d.param("drivers", &Options::drivers, "Drivers that list their own outputs.").pending();
     d.param("imager", &Options::imager, "Chain of picture effects.").pending();
     d.param("color_manager", &Options::color_manager,

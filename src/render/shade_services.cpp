@@ -1,0 +1,289 @@
+#include "render/shade_services.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "render/surface.h"
+
+namespace lightsieve {
+namespace {
+
+/// Surfaces that a probe passes because they are not meant.
+constexpr int kMaxPassed = 256;
+
+const SceneObject& object_of(const ShadePoint& at) {
+    return *static_cast<const SceneObject*>(at.shape);
+}
+
+/// The node that an instance places; null for other shapes.
+const NodeInstance* placed_by(const NodeInstance& node) {
+    static const Name kNode("node");
+    const auto* ref = node.find<NodeRef>(kNode);
+    return ref == nullptr ? nullptr : ref->node;
+}
+
+/// Value number `i` of user data as numbers.
+ShaderValue number_at(const UserData& data, std::size_t i) {
+    const auto load = [&]<class T>(T) { return static_cast<const T*>(data.data)[i]; };
+    const auto one = [](float v) { return ShaderValue{Color::grey(v), 1}; };
+    switch (data.type) {
+        case ParamType::Bool: return one(load(bool{}) ? 1.0F : 0.0F);
+        case ParamType::Byte: return one(static_cast<float>(load(std::uint8_t{})));
+        case ParamType::Int: return one(static_cast<float>(load(std::int32_t{})));
+        case ParamType::UInt: return one(static_cast<float>(load(std::uint32_t{})));
+        case ParamType::Float: return one(load(float{}));
+        case ParamType::Rgb: return {load(Color{}), 1};
+        case ParamType::Rgba: return load(Rgba{});
+        case ParamType::Vector: {
+            const Vec3f v = load(Vec3f{});
+            return {{v.x, v.y, v.z}, 1};
+        }
+        case ParamType::Vector2: {
+            const Vec2f v = load(Vec2f{});
+            return {{v.x, v.y, 0}, 1};
+        }
+        default: return {kBlack, 1};
+    }
+}
+
+bool is_number(ParamType type) {
+    return type != ParamType::String && type != ParamType::Matrix && type != ParamType::Node &&
+           type != ParamType::Closure;
+}
+
+/// Whether a probe with a trace set meets an object (see Probe::inclusive).
+bool in_trace_set(const SceneObject& object, const Probe& probe) {
+    if (probe.trace_set.empty()) return true;
+    const Array<Name>* sets = nullptr;
+    for (const NodeInstance* node = object.node; node != nullptr; node = placed_by(*node)) {
+        sets = &node->type().shape_common(node->block())->trace_sets;
+        if (!sets->empty()) break;
+    }
+    if (sets == nullptr || sets->empty()) return true;
+    const auto all = sets->first_key();
+    const bool tagged = std::find(all.begin(), all.end(), probe.trace_set) != all.end();
+    return tagged == probe.inclusive;
+}
+
+}  // namespace
+
+/// User data that shows at a point, and the node that carries it.
+struct SceneServices::Found {
+    const UserData* data = nullptr;
+    const NodeInstance* node = nullptr;
+};
+
+/// The values that meet at a point, and their shares.
+struct SceneServices::Spot {
+    std::array<std::size_t, 3> index{};
+    std::array<float, 3> weight{1, 0, 0};
+    std::size_t n = 1;
+};
+
+void SceneServices::prepare(const NodeInstance& shape) {
+    const auto* counts = shape.find<Array<std::uint32_t>>("num_points");
+    const auto data = shape.user_data();
+    const bool varying = std::any_of(data.begin(), data.end(), [](const UserData& d) {
+        return d.user_class == UserDataClass::Varying;
+    });
+    if (counts == nullptr || counts->n < 2 || !varying) return;
+    std::vector<std::uint32_t>& starts = curve_starts_[&shape];
+    starts.push_back(0);
+    for (const std::uint32_t n : counts->first_key())
+        starts.push_back(starts.back() + n);
+}
+
+SceneServices::Found SceneServices::find(const ShadePoint& at, Name name) const {
+    for (const NodeInstance* node = object_of(at).node; node != nullptr;) {
+        const NodeInstance* next = placed_by(*node);
+        const UserData* data = node->find_user_data(name);
+        // Only what is the same everywhere can be given to an instance.
+        const bool fits = data != nullptr && data->n > 0 && data->data != nullptr &&
+                          (next == nullptr || data->user_class == UserDataClass::Constant);
+        if (fits) return {data, node};
+        node = next;
+    }
+    return {};
+}
+
+/// Values and shares at a point; false if the data does not fit the geometry.
+bool SceneServices::spot_of(const ShadePoint& at, const Found& found, Spot& out) const {
+    const UserData& data = *found.data;
+    const ShapeGeometry& geometry = *object_of(at).geometry;
+    const auto* mesh = std::get_if<TriangleMesh>(&geometry.data);
+    const auto* curves = std::get_if<CurveList>(&geometry.data);
+    out = {};
+    switch (data.user_class) {
+        case UserDataClass::Constant: break;
+        case UserDataClass::Uniform:
+            out.index[0] = mesh != nullptr || curves != nullptr ? at.face : at.primitive;
+            break;
+        case UserDataClass::Varying:
+        case UserDataClass::Indexed: {
+            if (curves != nullptr) {
+                // Values stand along the curve, as control points do.
+                const auto starts = curve_starts_.find(found.node);
+                const auto* counts = found.node->find<Array<std::uint32_t>>("num_points");
+                std::size_t first = 0, n = data.n;
+                if (starts != curve_starts_.end() && at.face + 1 < starts->second.size()) {
+                    first = starts->second[at.face];
+                    n = starts->second[at.face + 1] - first;
+                } else if (counts != nullptr && counts->n == 1) {
+                    n = (*counts)[0];
+                    first = n * at.face;
+                }
+                if (n == 0) return false;
+                const float place =
+                    std::clamp(at.curve_uv.y, 0.0F, 1.0F) * static_cast<float>(n - 1);
+                const auto i = std::min(static_cast<std::size_t>(place), n > 1 ? n - 2 : 0);
+                const float f = place - static_cast<float>(i);
+                out = {{first + i, first + std::min(i + 1, n - 1), 0}, {1 - f, f, 0}, 2};
+                break;
+            }
+            if (mesh == nullptr) {
+                out.index[0] = at.primitive;
+                break;
+            }
+            const std::vector<std::uint32_t>& corners =
+                data.user_class == UserDataClass::Varying ? mesh->indices : mesh->corner;
+            const std::size_t t = std::size_t{at.primitive} * 3;
+            if (t + 2 >= corners.size()) return false;
+            for (std::size_t i = 0; i < 3; ++i) {
+                out.index[i] = corners[t + i];
+                if (data.user_class != UserDataClass::Indexed) continue;
+                if (out.index[i] >= data.indices.n) return false;
+                out.index[i] = data.indices[out.index[i]];
+            }
+            const Vec2f b = at.barycentric;
+            out.weight = {1 - b.x - b.y, b.x, b.y};
+            out.n = 3;
+            break;
+        }
+    }
+    return std::all_of(out.index.begin(), out.index.begin() + static_cast<std::ptrdiff_t>(out.n),
+                       [&](std::size_t i) { return i < data.n; });
+}
+
+bool SceneServices::user_value(const ShadePoint& at, Name name, ShaderValue& out) const {
+    const Found found = find(at, name);
+    Spot spot;
+    if (found.data == nullptr || !is_number(found.data->type) || !spot_of(at, found, spot))
+        return false;
+    out = {kBlack, 0};
+    for (std::size_t i = 0; i < spot.n; ++i) {
+        const ShaderValue v = number_at(*found.data, spot.index[i]);
+        out.rgb += v.rgb * spot.weight[i];
+        out.a += v.a * spot.weight[i];
+    }
+    return true;
+}
+
+bool SceneServices::user_text(const ShadePoint& at, Name name, Name& out) const {
+    const Found found = find(at, name);
+    Spot spot;
+    if (found.data == nullptr || found.data->type != ParamType::String ||
+        !spot_of(at, found, spot))
+        return false;
+    const auto largest = std::max_element(spot.weight.begin(), spot.weight.end());
+    out = static_cast<const Name*>(
+        found.data->data)[spot.index[static_cast<std::size_t>(largest - spot.weight.begin())]];
+    return true;
+}
+
+bool SceneServices::uv_set(const ShadePoint& at, Name name, UvPoint& out) const {
+    const Found found = find(at, name);
+    Spot spot;
+    if (found.data == nullptr || found.data->type != ParamType::Vector2 ||
+        !spot_of(at, found, spot))
+        return false;
+    const auto* values = static_cast<const Vec2f*>(found.data->data);
+    out = {};
+    for (std::size_t i = 0; i < spot.n; ++i)
+        out.uv = out.uv + values[spot.index[i]] * spot.weight[i];
+    Triangle corners;
+    if (spot.n != 3 || !triangle(at, corners)) return true;
+    // As for the first set: both derivatives from the corners.
+    const Vec3f e1 = corners.corners[1] - corners.corners[0],
+                e2 = corners.corners[2] - corners.corners[0];
+    const Vec2f d1 = values[spot.index[1]] - values[spot.index[0]],
+                d2 = values[spot.index[2]] - values[spot.index[0]];
+    const float det = d1.x * d2.y - d1.y * d2.x, twice_area = length(cross(e1, e2));
+    if (det == 0 || !(twice_area > 0)) return true;
+    out.dp_du = (e1 * d2.y - e2 * d1.y) / det;
+    out.dp_dv = (e2 * d1.x - e1 * d2.x) / det;
+    constexpr float kLeastCosine = 0.1F;  // as for the first set
+    const float cosine = std::max(kLeastCosine, std::abs(dot(at.geometric_normal, at.wo)));
+    out.width = std::sqrt(std::abs(det) / twice_area) * at.width / cosine;
+    return true;
+}
+
+Mat4f SceneServices::world_from_object(const ShadePoint& at) const {
+    return placement_at(object_of(at), at.time);
+}
+
+Mat4f SceneServices::object_from_world(const ShadePoint& at) const {
+    const SceneObject& object = object_of(at);
+    return object.object_from_world.size() == 1 ? object.object_from_world[0]
+                                                : placement_at(object, at.time).inverse();
+}
+
+bool SceneServices::triangle(const ShadePoint& at, Triangle& out) const {
+    const SceneObject& object = object_of(at);
+    const auto* mesh = std::get_if<TriangleMesh>(&object.geometry->data);
+    if (mesh == nullptr) return false;
+    out = {};
+    const Mat4f place = placement_at(object, at.time);
+    const std::array<Vec3f, 3> local = triangle_corners(*mesh, at.primitive, at.time);
+    for (std::size_t i = 0; i < 3; ++i)
+        out.corners[i] = place.point(local[i]);
+    const std::size_t t = std::size_t{at.primitive} * 3;
+    if (mesh->face.empty() || t + 2 >= mesh->corner.size()) return true;
+    // The polygon's corners, from all of its triangles, which stand together.
+    std::uint32_t first = UINT32_MAX, last = 0;
+    const auto widen = [&](std::size_t triangle) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            first = std::min(first, mesh->corner[triangle * 3 + i]);
+            last = std::max(last, mesh->corner[triangle * 3 + i]);
+        }
+    };
+    for (std::size_t i = at.primitive; i < mesh->face.size() && mesh->face[i] == at.face; ++i)
+        widen(i);
+    for (std::size_t i = at.primitive; i-- > 0 && mesh->face[i] == at.face;)
+        widen(i);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = mesh->corner[t + i], b = mesh->corner[t + (i + 1) % 3];
+        const auto [low, high] = std::minmax(a, b);
+        out.polygon_edge[i] = high - low == 1 || (low == first && high == last);
+    }
+    return true;
+}
+
+Name SceneServices::shape_name(const ShadePoint& at) const { return object_of(at).name; }
+
+std::int32_t SceneServices::n_lights() const {
+    return static_cast<std::int32_t>(scene_.lights.size());
+}
+
+bool SceneServices::trace(const ShadePoint& at, const Probe& probe, ProbeHit& out) const {
+    Ray ray{probe.origin, probe.direction, probe.t_min, probe.t_max, at.time};
+    for (int passed = 0; passed < kMaxPassed; ++passed) {
+        RayHit hit;
+        if (!scene_.accel->intersect(ray, ray_bit(RayType::DiffuseReflect), hit)) return false;
+        const SceneObject& object = scene_.objects[hit.object];
+        const bool same = &object == at.shape;
+        if ((same || !probe.self_only) && in_trace_set(object, probe)) {
+            const Surface surface = make_surface(object, ray, hit, {});
+            const Vec3f geometric = surface.at.geometric_normal;
+            const Vec3f normal = surface.at.normal;
+            out = {hit.t, surface.at.position, geometric,
+                   dot(normal, geometric) < 0 ? -normal : normal, same};
+            return true;
+        }
+        ray.t_min = std::nextafter(hit.t, kInfinity);
+    }
+    return false;
+}
+
+}  // namespace lightsieve
