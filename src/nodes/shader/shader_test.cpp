@@ -13,6 +13,7 @@ NodeType node_flat();
 NodeType node_lambert();
 NodeType node_layer_rgba();
 NodeType node_matte();
+NodeType node_osl();
 NodeType node_ray_switch_rgba();
 NodeType node_utility();
 
@@ -24,7 +25,7 @@ struct Shaded {
         set.set_records(records);
         node.type().eval_closure(node.block(), at, set);
     }
-    std::array<LobeRecord, 2> records;
+    std::array<LobeRecord, 3> records;
     ClosureSet set;
 };
 
@@ -163,15 +164,51 @@ TEST(Utility, ColorModes) {
     }
 }
 
-TEST(Utility, WhatIsMissingIsSaid) {
+TEST(Utility, PlasticAndMetalReflect) {
     TestNode node(node_utility());
-    TestContext context;
-    node.type().prepare(node.block(), context);
-    EXPECT_TRUE(context.diagnostics().items().empty());
-    node.set_enum("color_mode", 15).set_enum("shade_mode", 4);
-    node.type().prepare(node.block(), context);
-    EXPECT_EQ(context.count(Code::ParamPending), 2U);
-    EXPECT_FALSE(Shaded(node).set.closures().empty());
+    node.set("color", Color{1, 0.5F, 0.25F}).set_enum("shade_mode", 4);
+    const Shaded plastic(node);
+    ASSERT_EQ(plastic.set.closures().size(), 2U);
+    // What the shine takes the colour below lacks.
+    EXPECT_NEAR(plastic.set.albedo(1).r, 1 - plastic.set.albedo(0).r, 1e-5);
+    EXPECT_GT(plastic.set.albedo(0).r, 0.03F);
+    node.set_enum("shade_mode", 5);
+    const Shaded metal(node);
+    ASSERT_EQ(metal.set.closures().size(), 1U);
+    EXPECT_GT(metal.set.albedo(0).r, metal.set.albedo(0).b);
+}
+
+TEST(Utility, ColorsOfThingsAreTheirOwn) {
+    TestNode node(node_utility());
+    node.set_enum("shade_mode", 2).set_enum("color_mode", 15);
+    ShadePoint first, second;
+    first.shape_id = 1;
+    second.shape_id = 2;
+    EXPECT_EQ(value(node, first), value(node, first));
+    EXPECT_NE(value(node, first), value(node, second));
+    node.set_enum("color_mode", 19);
+    EXPECT_EQ(value(node, first), (Color{1, 0, 1})) << "no texture coordinates";
+    first.dp_du = {1, 0, 0};
+    first.dp_dv = {0, 1, 0};
+    EXPECT_EQ(value(node, first), kWhite);
+}
+
+TEST(Osl, StandsForTheInitialValueOfItsOutput) {
+    const auto shows = [](const char* code) {
+        TestNode node(node_osl());
+        node.set("code", Name(code));
+        TestContext context;
+        node.type().prepare(node.block(), context);
+        EXPECT_EQ(context.count(Code::ParamPending), 1U);
+        return value(node);
+    };
+    expect_color(shows("shader s(output color Col = color(1, 0.5, -2)) { Col = 0; }"),
+                 {1, 0.5F, -2});
+    expect_color(shows("shader s(float in = 3, output float x = 0.25, output color c = 1) {}"),
+                 Color::grey(0.25F));
+    expect_color(shows("shader s(output color Col) { Col = color(1, 1, 1); }"), kBlack);
+    expect_color(shows(""), kBlack);
+    expect_color(shows("output = ((("), kBlack);
 }
 
 TEST(RaySwitchRgba, GivesEachRayItsColour) {
@@ -182,7 +219,7 @@ TEST(RaySwitchRgba, GivesEachRayItsColour) {
     at.ray_type = RayType::Subsurface;
     expect_color(value(node, at), {0, 1, 0});
     at.ray_type = RayType::SpecularReflect;
-    expect_color(value(node, at), {1, 1, 1});
+    expect_color(value(node, at), kBlack);
     EXPECT_TRUE(node.type().reads_ray_type);
 }
 
@@ -193,24 +230,40 @@ TEST(LayerRgba, PutsLayersOnOneAnother) {
     expect_color(seen().rgb, {0.2F, 0.4F, 0.6F});
     node.set("enable2", true).set("input2", Rgba{{1, 0, 0.5F}, 0.5F}).set("mix2", 0.5F);
     struct Row {
-        std::int32_t operation;
+        const char* operation;
         Color blended;
+    };
+    const auto& names = node.type().find("operation2")->enumerators;
+    const auto use = [&](const char* operation) {
+        const auto found = std::find(names.begin(), names.end(), operation);
+        ASSERT_NE(found, names.end()) << operation;
+        node.set_enum("operation2", static_cast<std::int32_t>(found - names.begin()));
     };
     // Each blend of 0.2 0.4 0.6 with 1 0 0.5, a quarter of it.
     for (const Row& row :
-         {Row{1, {1, 0, 0.5F}}, Row{2, {1.2F, 0.4F, 1.1F}}, Row{3, {-0.8F, 0.4F, 0.1F}},
-          Row{4, {0.2F, 0, 0.3F}}, Row{5, {0.2F, 0, 1.2F}}, Row{6, {0.6F, 0.2F, 0.55F}},
-          Row{7, {0.8F, 0.4F, 0.1F}}, Row{8, {1, 0.4F, 0.8F}}, Row{9, {0.4F, 0, 0.6F}},
-          Row{12, {0.2F, 0, 0.5F}}, Row{13, {1, 0.4F, 0.6F}}}) {
+         {Row{"over", {1, 0, 0.5F}}, Row{"plus", {1.2F, 0.4F, 1.1F}},
+          Row{"minus", {0.8F, -0.4F, -0.1F}}, Row{"from", {-0.8F, 0.4F, 0.1F}},
+          Row{"multiply", {0.2F, 0, 0.3F}}, Row{"average", {0.6F, 0.2F, 0.55F}},
+          Row{"difference", {0.8F, 0.4F, 0.1F}}, Row{"screen", {1, 0.4F, 0.8F}},
+          Row{"overlay", {0.4F, 0, 0.6F}}, Row{"soft_light", {0.36F, 0.16F, 0.6F}},
+          Row{"min", {0.2F, 0, 0.5F}}, Row{"max", {1, 0.4F, 0.6F}},
+          Row{"color_dodge", {1, 0.4F, 1}}, Row{"color_burn", {0.2F, 0, 0.2F}},
+          Row{"exclusion", {0.8F, 0.4F, 0.5F}}, Row{"subtract", {0, 0.4F, 0.1F}}}) {
         SCOPED_TRACE(row.operation);
-        node.set_enum("operation2", row.operation);
+        use(row.operation);
         expect_color(seen().rgb, lerp(Color{0.2F, 0.4F, 0.6F}, row.blended, 0.25F));
     }
+    // Operations that read alphas take what is there whole: half of it, for the mix.
+    use("in");
+    expect_color(seen().rgb, lerp(Color{0.2F, 0.4F, 0.6F}, Color{1, 0, 0.5F}, 0.5F));
+    use("mask");
+    expect_color(seen().rgb, Color{0.2F, 0.4F, 0.6F} * 0.75F);
     // Overwrite takes the layer by its mix alone.
-    node.set_enum("operation2", 0);
+    use("overwrite");
     expect_color(seen().rgb, lerp(Color{0.2F, 0.4F, 0.6F}, Color{1, 0, 0.5F}, 0.5F));
     EXPECT_NEAR(seen().a, 0.75, 1e-6);
-    node.set_enum("operation2", 1).set_enum("alpha_operation2", 1);
+    use("over");
+    node.set_enum("alpha_operation2", 1);
     EXPECT_EQ(seen().a, 1);
 }
 

@@ -164,9 +164,10 @@ std::vector<float> fingerprint(const TestNode& node) {
     return out;
 }
 
-/// Parameters that the renderer reads itself; their tests are in render/.
-const std::set<std::string> kReadByRenderer{"transmit_aovs", "transmission_transmit_aovs",
-                                            "exit_to_background", "extra_depth"};
+/// Parameters that the renderer reads itself, or that act on what only a scene has; their tests are in render/.
+const std::set<std::string> kReadByRenderer{"transmit_aovs",      "transmission_transmit_aovs",
+                                            "exit_to_background", "extra_depth",
+                                            "overlay_mode",       "ao_distance"};
 
 /// A fibre has no normal; the input is MaterialX's.
 const std::set<std::string> kWithoutMeaning{"chiang_hair_bsdf.normal"};

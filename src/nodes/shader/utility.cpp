@@ -1,8 +1,8 @@
 // utility: shows what a surface is made of: normals, coordinates, colours.
-#include <fmt/format.h>
-
 #include "bsdf/closure.h"
-#include "nodes/shader/shader_common.h"
+#include "nodes/math/math_node.h"
+#include "nodes/state/occlusion.h"
+#include "nodes/state/wires.h"
 #include "scene/describe.h"
 #include "scene/node_context.h"
 
@@ -36,6 +36,8 @@ enum class ColorMode : std::int32_t {
     PixelError
 };
 enum class ShadeMode : std::int32_t { NdotEye, Lambert, Flat, AmbOcc, Plastic, Metal };
+/// Lobes, in the order of their description.
+enum UtilityLobe : int { kDiffuse, kUnlit, kSpecular };
 enum class OverlayMode : std::int32_t { None, Wire, Polywire };
 
 /// Names of ColorMode, in its order.
@@ -63,6 +65,8 @@ struct Utility {
     void eval(const ShadePoint& at, ClosureSet& out) const;
     /// The colour before shading.
     [[nodiscard]] Color shown(const ShadePoint& at) const;
+    [[nodiscard]] Color shown_of_mesh(const ShadePoint& at) const;
+    [[nodiscard]] Color overlaid(const ShadePoint& at) const;
     /// As a value: shaded with what the hit alone gives.
     [[nodiscard]] ShaderValue value(const ShadePoint& at) const;
 };
@@ -75,18 +79,20 @@ NodeType Utility::describe() {
             "How it is lit: by the angle to the viewer, as a diffuse surface, not at all.")
         .names(shade_modes());
     d.param("overlay_mode", &Utility::overlay_mode, "Wires on top.")
-        .names({"none", "wire", "polywire"})
-        .pending();
+        .names({"none", "wire", "polywire"});
     d.param("color", &Utility::color, "Colour for color_mode color.");
     d.param("ao_distance", &Utility::ao_distance,
-            "Reach of ambient occlusion; acts with shade_mode ambocc.")
-        .ignored();
+            "Reach of ambient occlusion for shade_mode ambocc.")
+        .unit("scene units");
     d.param("roughness", &Utility::roughness, "Roughness of shade modes plastic and metal.")
-        .ignored();
+        .range(0, 1);
     d.param("normal", &Utility::normal, "Shading normal, world space; acts when linked.");
-    d.lobe(0, EventKind::Reflection, EventLobe::Diffuse, "",
-           "Diffuse reflection of shade_mode lambert.");
-    d.lobe(1, EventKind::Object, EventLobe::None, "", "The colour of the other shade modes.");
+    d.lobe(kDiffuse, EventKind::Reflection, EventLobe::Diffuse, "",
+           "Diffuse reflection of shade modes lambert and plastic.");
+    d.lobe(kUnlit, EventKind::Object, EventLobe::None, "",
+           "The colour of shade modes without light.");
+    d.lobe(kSpecular, EventKind::Reflection, EventLobe::Specular, "",
+           "Highlights of shade modes plastic and metal.");
     // Linked to a parameter it is a colour, as the surface's shader it may need light: both functions.
     NodeType type = d.done();
     type.output = OutputType::Rgb;
@@ -98,22 +104,58 @@ NodeType Utility::describe() {
 
 void Utility::prepare(NodeContext& context) {
     if (!context.is_linked("normal")) normal = {};
-    const auto replace = [&](const char* param, const std::string& was, const char* by) {
-        context.diagnostics().warning(
-            Code::ParamPending,
-            fmt::format("{} \"{}\" is not supported yet: shown as \"{}\"", param, was, by),
-            context.where(param));
-    };
-    if (color_mode > ColorMode::P) {
-        replace("color_mode", color_modes().at(static_cast<std::size_t>(color_mode)), "color");
-        color_mode = ColorMode::Color;
-    }
-    if (shade_mode == ShadeMode::AmbOcc) {
-        replace("shade_mode", "ambocc", "ndoteye");
-        shade_mode = ShadeMode::NdotEye;
-    } else if (shade_mode == ShadeMode::Plastic || shade_mode == ShadeMode::Metal) {
-        replace("shade_mode", shade_modes().at(static_cast<std::size_t>(shade_mode)), "lambert");
-        shade_mode = ShadeMode::Lambert;
+}
+
+/// A colour that looks random; Arnold's own hash is private.
+Color random_color(std::uint32_t id) {
+    return {unit_from_bits(mixed_bits(id, 1)), unit_from_bits(mixed_bits(id, 2)),
+            unit_from_bits(mixed_bits(id, 3))};
+}
+
+/// Mean length of the triangle's edges; 0 for shapes without.
+float edge_length(const ShadePoint& at) {
+    ShadeServices::Triangle t;
+    if (at.services == nullptr || !at.services->triangle(at, t)) return 0;
+    return (length(t.corners[1] - t.corners[0]) + length(t.corners[2] - t.corners[1]) +
+            length(t.corners[0] - t.corners[2])) /
+           3;
+}
+
+/// Colours for the modes about meshes, objects and the ray.
+Color Utility::shown_of_mesh(const ShadePoint& at) const {
+    const auto stripes = [](float x) { return 0.5F + 0.5F * std::sin(x); };
+    switch (color_mode) {
+        case ColorMode::Prims: return random_color(at.primitive);
+        case ColorMode::UniformId: return random_color(at.face);
+        case ColorMode::Obj:
+        case ColorMode::Id: return random_color(at.shape_id);
+        case ColorMode::Wire: return lerp(color, kBlack, line_cover(at, at.width, false));
+        case ColorMode::Polywire: return lerp(color, kBlack, line_cover(at, at.width, true));
+        case ColorMode::EdgeLength: return Color::grey(edge_length(at));
+        case ColorMode::PixelError:
+            return Color::grey(at.width > 0 ? edge_length(at) / at.width : 0);
+        case ColorMode::Floatgrid: {
+            const Vec3f p = at.position;
+            const float cells = std::floor(p.x) + std::floor(p.y) + std::floor(p.z);
+            return Color::grey(std::fmod(std::abs(cells), 2.0F) == 0 ? 1.0F : 0.0F);
+        }
+        case ColorMode::ReflectLine: {
+            constexpr float kStripes = 30;  // as the lamps of a workshop lie on a car
+            const Vec3f n = shading_normal(at, normal);
+            return Color::grey(stripes(kStripes * (2 * dot(n, at.wo) * n.y - at.wo.y)));
+        }
+        case ColorMode::BadUvs: {
+            const bool bad = !(length_squared(cross(at.dp_du, at.dp_dv)) > 0);
+            return bad ? Color{1, 0, 1} : color;
+        }
+        case ColorMode::Nlights:
+            return Color::grey(at.services != nullptr ? static_cast<float>(at.services->n_lights())
+                                                      : 0);
+        case ColorMode::BumpDiff:
+            return Color::grey(
+                std::acos(std::clamp(dot(shading_normal(at, normal), at.normal), -1.0F, 1.0F)) *
+                (2 * kInvPi));
+        default: return color;
     }
 }
 
@@ -134,20 +176,49 @@ Color Utility::shown(const ShadePoint& at) const {
         case ColorMode::Dpdu: return direction(at.tangent);
         case ColorMode::Dpdv: return direction(cross(at.normal, at.tangent));
         case ColorMode::P: return {at.position.x, at.position.y, at.position.z};
-        default: return color;
+        default: return shown_of_mesh(at);
     }
 }
 
+/// With the wires of overlay_mode on top.
+Color Utility::overlaid(const ShadePoint& at) const {
+    const Color c = shown(at);
+    if (overlay_mode == OverlayMode::None) return c;
+    return lerp(c, kBlack, line_cover(at, at.width, overlay_mode == OverlayMode::Polywire));
+}
+
 ShaderValue Utility::value(const ShadePoint& at) const {
-    const float facing =
-        shade_mode == ShadeMode::NdotEye ? positive(dot(shading_normal(at, normal), at.wo)) : 1.0F;
-    return {shown(at) * facing, 1};
+    const Vec3f n = shading_normal(at, normal);
+    float light = 1;
+    if (shade_mode == ShadeMode::NdotEye) light = positive(dot(n, at.wo));
+    if (shade_mode == ShadeMode::AmbOcc) {
+        OcclusionSettings settings;
+        settings.far_clip = ao_distance;
+        settings.normal = n;
+        light = 1 - occlusion(at, settings);
+    }
+    return {overlaid(at) * light, 1};
 }
 
 void Utility::eval(const ShadePoint& at, ClosureSet& out) const {
-    if (shade_mode != ShadeMode::Lambert) return out.emit(1, value(at).rgb);
-    const Frame frame = Frame::from_z_x(shading_normal(at, normal), at.tangent);
-    out.add(0, DiffuseReflect(positive(shown(at))), kWhite, out.add_frame(frame), true);
+    const bool lit = shade_mode == ShadeMode::Lambert || shade_mode == ShadeMode::Plastic ||
+                     shade_mode == ShadeMode::Metal;
+    if (!lit) return out.emit(kUnlit, value(at).rgb);
+    const std::uint8_t frame =
+        out.add_frame(Frame::from_z_x(shading_normal(at, normal), at.tangent));
+    const Color c = positive(overlaid(at));
+    const GgxAlpha alpha{square(unit(roughness)), square(unit(roughness))};
+    if (shade_mode == ShadeMode::Metal) {
+        // Reflectance c at normal incidence without a colour of its own at the edge.
+        return out.add(kSpecular, SchlickReflect(alpha, unit(c), kWhite), kWhite, frame, true);
+    }
+    Color below = kWhite;
+    if (shade_mode == ShadeMode::Plastic) {
+        const DielectricReflect shine(alpha, 1.5F);
+        out.add(kSpecular, shine, kWhite, frame, true);
+        below = kWhite - shine.albedo(out.local_wo(frame));
+    }
+    out.add(kDiffuse, DiffuseReflect(c), positive(below), frame, true);
 }
 
 }  // namespace

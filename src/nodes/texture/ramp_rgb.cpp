@@ -1,16 +1,20 @@
 // ramp_rgb: colours along a line, between keys.
-#include "nodes/shader/ramp.h"
+#include <array>
+
+#include "nodes/texture/ramp.h"
 
 namespace lightsieve {
 namespace {
 
+constexpr std::array<Color, 2> kBlackToWhite{kBlack, kWhite};
+
 struct RampRgb : RampCommon {
-    Array<Color> color;
+    Array<Color> color{kBlackToWhite.data(), 2, 1};
 
     static NodeType describe() {
         Describe<RampRgb> d("ramp_rgb", NodeKind::Shader, "Colours along a line, between keys.");
         describe_ramp(d);
-        d.param("color", &RampRgb::color, "Values of the keys.");
+        d.param("color", &RampRgb::color, "Values of the keys; left out: from black to white.");
         return d.done();
     }
     [[nodiscard]] Color eval(const ShadePoint& at) const {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "nodes/shader/shader_common.h"
+#include "nodes/texture/uv_set.h"
 #include "scene/describe.h"
 
 namespace lightsieve {
@@ -39,7 +40,7 @@ struct RampCommon {
     [[nodiscard]] Vec2f uv(const ShadePoint& at) const {
         const bool implicit = use_implicit_uvs == ImplicitUvs::On ||
                               (use_implicit_uvs == ImplicitUvs::CurvesOnly && at.on_curve);
-        const Vec2f uv = implicit && at.on_curve ? at.curve_uv : at.uv;
+        const Vec2f uv = implicit && at.on_curve ? at.curve_uv : uv_of_set(at, uvset).uv;
         const auto wrapped = [](float x) { return x >= 0 && x <= 1 ? x : x - std::floor(x); };
         return wrap_uvs ? Vec2f{wrapped(uv.x), wrapped(uv.y)} : uv;
     }
@@ -80,7 +81,7 @@ void describe_ramp(Describe<T>& d) {
             "Places of the keys, in any order; none: evenly from 0 to 1.");
     d.param("interpolation", &T::interpolation,
             "From each key to the next: 0 constant, 1 linear, 2 Catmull-Rom, 3 monotone cubic.");
-    d.param("uvset", &T::uvset, "Another uv set than the first.").pending();
+    d.param("uvset", &T::uvset, "Set of texture coordinates; empty: the first.");
     d.param("use_implicit_uvs", &T::use_implicit_uvs,
             "Whether curves use the place along and across the strand instead of their uv.")
         .names({"off", "curves_only", "on"});

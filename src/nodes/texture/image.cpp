@@ -1,10 +1,13 @@
 // image: a texture file at the hit's texture coordinates, in the rendering space.
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "io/texture.h"
+#include "nodes/texture/image_files.h"
+#include "nodes/texture/uv_set.h"
 #include "scene/describe.h"
 #include "scene/node_context.h"
-#include "scene/shade_point.h"
 
 namespace lightsieve {
 namespace {
@@ -32,7 +35,7 @@ struct Image {
 
     // Found by prepare().
     const TextureCache* cache = nullptr;
-    const Texture* texture = nullptr;  ///< null: missing
+    const ImageFiles* files = nullptr;
     TextureSampling sampling;
     float footprint_scale = 1;  ///< of the hit's footprint, from scales and bias
     bool uvcoords_linked = false;
@@ -42,14 +45,18 @@ struct Image {
     [[nodiscard]] Rgba eval(const ShadePoint& at) const;
 
   private:
-    [[nodiscard]] Vec2f texture_coordinates(const ShadePoint& at) const;
+    [[nodiscard]] Vec2f texture_coordinates(Vec2f uv) const;
+    [[nodiscard]] const ImageTiles& tiles_at(const ShadePoint& at) const;
+    /// Opens every file that the name may stand for.
+    [[nodiscard]] std::shared_ptr<const ImageFiles> open_files(NodeContext& context) const;
+    void report_missing(NodeContext& context) const;
 };
 
 NodeType Image::describe() {
     Describe<Image> d("image", NodeKind::Shader, "A texture from a picture file.");
     d.param("filename", &Image::filename,
             "The file: .tx, EXR, TIFF, PNG, JPEG, HDR and others; looked for along "
-            "texture_searchpath.");
+            "texture_searchpath. Tokens: <udim>, <tile>, <frame>, <attr:NAME default:TEXT>.");
     d.param("color_space", &Image::color_space,
             "What the file's colours are; auto: sRGB for integers, ACEScg for floats; empty: no "
             "conversion.");
@@ -82,7 +89,7 @@ NodeType Image::describe() {
     d.param("swap_st", &Image::swap_st, "Exchanges s and t.");
     d.param("uvcoords", &Image::uvcoords,
             "Texture coordinates in place of the shape's; acts only when linked.");
-    d.param("uvset", &Image::uvset, "Set of texture coordinates; empty: the first.").pending();
+    d.param("uvset", &Image::uvset, "Set of texture coordinates; empty: the first.");
     return d.done();
 }
 
@@ -97,14 +104,47 @@ void Image::prepare(NodeContext& context) {
         std::fmax(std::abs(sscale), std::abs(tscale)) * std::exp2(static_cast<float>(mipmap_bias));
     uvcoords_linked = context.is_linked("uvcoords");
     cache = &context.textures();
-    texture = nullptr;
+    const std::shared_ptr<const ImageFiles> opened = open_files(context);
+    files = opened.get();
+    context.keep(opened);
+}
 
-    const std::optional<std::string> path = context.find_asset(filename.view());
-    if (path) {
-        texture = context.textures().open(*path, color_space.view(), context.diagnostics(),
-                                          context.where("filename"));
-        return;
+std::shared_ptr<const ImageFiles> Image::open_files(NodeContext& context) const {
+    auto out = std::make_shared<ImageFiles>();
+    const std::size_t n_errors = context.diagnostics().n_errors();
+    const auto open = [&](const std::string& name) {
+        return open_tiles(with_frame(name, context.frame_number()), color_space.view(), context);
+    };
+    const std::string name = filename.str();
+    bool by_data = false;
+    const FileToken token = find_token(name, "attr", by_data);
+    const auto with_text = [&](std::string_view text) {
+        return name.substr(0, token.begin) + std::string(text) + name.substr(token.end);
+    };
+    if (by_data) {
+        const std::size_t blank = token.rest.find(' ');
+        const std::string standard = token.rest.find("default:") == std::string::npos
+                                         ? std::string{}
+                                         : token.rest.substr(token.rest.find("default:") + 8);
+        out->attribute = token.rest.substr(0, blank);
+        for (const Name text : context.user_texts(out->attribute))
+            out->by_text[text.id()] = open(with_text(text.view()));
+        out->fallback = open(with_text(standard));
+    } else if (context.is_linked("filename")) {
+        for (const Name text : context.possible_texts("filename"))
+            out->by_text[text.id()] = open(text.str());
+    } else {
+        out->fallback = open(name);
     }
+    const bool some = !out->fallback.empty() ||
+                      std::any_of(out->by_text.begin(), out->by_text.end(),
+                                  [](const auto& entry) { return !entry.second.empty(); });
+    // A file that is there but cannot be read has been reported.
+    if (!some && context.diagnostics().n_errors() == n_errors) report_missing(context);
+    return out;
+}
+
+void Image::report_missing(NodeContext& context) const {
     const std::string message = filename.empty()
                                     ? "image \"" + context.node_name().str() + "\" has no filename"
                                     : "there is no texture \"" + filename.str() + "\"";
@@ -114,15 +154,22 @@ void Image::prepare(NodeContext& context) {
                                       context.where("filename"));
         return;
     }
-    const bool pattern = filename.view().find('<') != std::string_view::npos;
     context.diagnostics().error(
         Code::FileNotFound, message, context.where("filename"),
-        pattern ? "tokens such as <udim> are not supported yet; name one file"
-                : "check the name and options.texture_searchpath, or set ignore_missing_textures");
+        "check the name and options.texture_searchpath, or set ignore_missing_textures");
 }
 
-Vec2f Image::texture_coordinates(const ShadePoint& at) const {
-    Vec2f st = uvcoords_linked ? uvcoords : at.uv;
+const ImageTiles& Image::tiles_at(const ShadePoint& at) const {
+    Name text = filename;
+    if (!files->attribute.empty() &&
+        (at.services == nullptr || !at.services->user_text(at, files->attribute, text)))
+        return files->fallback;
+    const auto found = files->by_text.find(text.id());
+    return found == files->by_text.end() ? files->fallback : found->second;
+}
+
+Vec2f Image::texture_coordinates(Vec2f uv) const {
+    Vec2f st = uvcoords_linked ? uvcoords : uv;
     if (swap_st) std::swap(st.x, st.y);
     st = {st.x * sscale + soffset, st.y * tscale + toffset};
     if (sflip) st.x = 1 - st.x;
@@ -131,11 +178,26 @@ Vec2f Image::texture_coordinates(const ShadePoint& at) const {
 }
 
 Rgba Image::eval(const ShadePoint& at) const {
-    const Vec2f st = texture_coordinates(at);
+    const UvPoint at_uv = uv_of_set(at, uvset);
+    Vec2f st = texture_coordinates(at_uv.uv);
     const bool outside = (swrap == ImageWrap::Missing && !(st.x >= 0 && st.x <= 1)) ||
                          (twrap == ImageWrap::Missing && !(st.y >= 0 && st.y <= 1));
-    if (texture == nullptr || outside) return missing_texture_color;
-    const Rgba texel = cache->lookup(*texture, st, at.uv_width * footprint_scale, sampling);
+    if (files == nullptr || outside) return missing_texture_color;
+    const ImageTiles& tiles = tiles_at(at);
+    const Texture* texture = tiles.single;
+    if (tiles.tiled) {
+        const float u = std::floor(st.x), v = std::floor(st.y);
+        if (!(u >= 0 && u < 10 && v >= 0 && v < 1000)) return missing_texture_color;
+        const auto found = tiles.tiles.find(1001 + static_cast<std::int32_t>(u) +
+                                            10 * static_cast<std::int32_t>(v));
+        if (found == tiles.tiles.end()) return missing_texture_color;
+        texture = found->second;
+        st = st - Vec2f{u, v};
+    }
+    if (texture == nullptr) return missing_texture_color;
+    TextureSampling how = sampling;
+    if (tiles.tiled) how.wrap_s = how.wrap_t = TextureWrap::Clamp;
+    const Rgba texel = cache->lookup(*texture, st, at_uv.width * footprint_scale, how);
     return {texel.rgb * multiply + offset, texel.a};
 }
 

@@ -1,17 +1,21 @@
 // ramp_float: numbers along a line, between keys.
-#include "nodes/shader/ramp.h"
+#include <array>
+
+#include "nodes/texture/ramp.h"
 
 namespace lightsieve {
 namespace {
 
+constexpr std::array<float, 2> kRise{0, 1};
+
 struct RampFloat : RampCommon {
-    Array<float> value;
+    Array<float> value{kRise.data(), 2, 1};
 
     static NodeType describe() {
         Describe<RampFloat> d("ramp_float", NodeKind::Shader,
                               "Numbers along a line, between keys.");
         describe_ramp(d);
-        d.param("value", &RampFloat::value, "Values of the keys.");
+        d.param("value", &RampFloat::value, "Values of the keys; left out: from 0 to 1.");
         return d.done();
     }
     [[nodiscard]] float eval(const ShadePoint& at) const {

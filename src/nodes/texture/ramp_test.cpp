@@ -1,5 +1,5 @@
 // Ramps: where a point lies, and what is between the keys.
-#include "nodes/shader/ramp.h"
+#include "nodes/texture/ramp.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 // checkerboard: two colours in cells of the texture coordinates, averaged over the ray's footprint.
 #include <cmath>
 
-#include "scene/describe.h"
-#include "scene/shade_point.h"
+#include "nodes/texture/uv_set.h"
 
 namespace lightsieve {
 namespace {
@@ -10,7 +9,7 @@ namespace {
 struct Checkerboard {
     Color color1{1, 1, 1}, color2{0, 0, 0};
     float u_frequency = 1, v_frequency = 1, u_offset = 0, v_offset = 0;
-    float contrast = 1, filter_strength = 1;
+    float contrast = 1, filter_strength = 1, filter_offset = 0;
     Name uvset;
 
     static NodeType describe();
@@ -32,8 +31,10 @@ NodeType Checkerboard::describe() {
     d.param("filter_strength", &Checkerboard::filter_strength,
             "Factor on the width over which cells are averaged.")
         .range(0, 1);
-    d.param("uvset", &Checkerboard::uvset, "Set of texture coordinates; empty: the first.")
-        .pending();
+    d.param("filter_offset", &Checkerboard::filter_offset,
+            "Added to that width, in units of the texture coordinates.")
+        .range(0, 1);
+    d.param("uvset", &Checkerboard::uvset, "Set of texture coordinates; empty: the first.");
     return d.done();
 }
 
@@ -55,9 +56,10 @@ float parity_mean(float x, float width) {
 Color Checkerboard::eval(const ShadePoint& at) const {
     // c = floor(2 n u) + floor(2 m v): even is color2, odd is color1.
     const float nu = 2 * u_frequency, nv = 2 * v_frequency;
-    const float width = std::fmax(at.uv_width * filter_strength, 0.0F);
-    const float even = parity_mean(nu * (at.uv.x + u_offset), std::abs(nu) * width) *
-                       parity_mean(nv * (at.uv.y + v_offset), std::abs(nv) * width);
+    const UvPoint at_uv = uv_of_set(at, uvset);
+    const float width = std::fmax(at_uv.width * filter_strength + filter_offset, 0.0F);
+    const float even = parity_mean(nu * (at_uv.uv.x + u_offset), std::abs(nu) * width) *
+                       parity_mean(nv * (at_uv.uv.y + v_offset), std::abs(nv) * width);
     if (!std::isfinite(even)) return lerp(color1, color2, 0.5F);
     return lerp(color1, color2, 0.5F + 0.5F * contrast * even);
 }

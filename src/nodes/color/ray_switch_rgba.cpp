@@ -6,9 +6,8 @@ namespace lightsieve {
 namespace {
 
 struct RaySwitchRgba {
-    Rgba camera{{1, 1, 1}, 1}, shadow{{1, 1, 1}, 1}, diffuse_reflection{{1, 1, 1}, 1},
-        diffuse_transmission{{1, 1, 1}, 1}, specular_reflection{{1, 1, 1}, 1},
-        specular_transmission{{1, 1, 1}, 1}, volume{{1, 1, 1}, 1};
+    Lazy<Rgba> camera, shadow, diffuse_reflection, diffuse_transmission, specular_reflection,
+        specular_transmission, volume;
 
     static NodeType describe() {
         Describe<RaySwitchRgba> d("ray_switch_rgba", NodeKind::Shader,
@@ -27,7 +26,7 @@ struct RaySwitchRgba {
         return d.done();
     }
     [[nodiscard]] Rgba eval(const ShadePoint& at) const {
-        return input_for_ray(*this, at.ray_type);
+        return input_for_ray(*this, at.ray_type).at(at);
     }
 };
 
