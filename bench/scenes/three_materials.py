@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import random
 
-SKIN = {"color": (0.8, 0.4, 0.25), "radius": (0.5, 0.25, 0.1)}
+SKIN = {"color": (0.8, 0.4, 0.25), "radius": (0.2, 0.1, 0.05)}
 HAIR = {"melanin": 0.5, "redness": 0.4, "roughness": 0.3, "radius": 0.012, "n_strands": 4000}
 FOG = {"scattering": (1.6, 1.4, 1.0), "absorption": (0.2, 0.4, 0.8), "anisotropy": 0.4}
 SURROUNDING = 0.3
@@ -83,7 +83,7 @@ def _lamp() -> str:
     h = LAMP_SIDE / 2
     return (
         f"quad_light\n{{\n name lamp\n matrix {matrix}\n"
-        f" vertices 4 1 VECTOR {-h} {-h} 0 {h} {-h} 0 {h} {h} 0 {-h} {h} 0\n"
+        f" vertices 4 1 VECTOR {-h} {h} 0 {h} {h} 0 {h} {-h} 0 {-h} {-h} 0\n"
         f" normalize off\n intensity {LAMP}\n}}\n"
     )
 
