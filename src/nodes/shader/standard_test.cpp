@@ -47,7 +47,7 @@ TEST(Standard, LobesAreAdded) {
     EXPECT_NEAR(s.albedo(kSpecular).r, 0.5, 5e-3);
     EXPECT_NEAR(s.albedo(kSpecular).g, 0.25, 5e-3);
     EXPECT_NEAR(s.albedo(kReflection).b, 0.25, 1e-5);
-    EXPECT_NEAR(s.albedo(kDiffuse).g, 0.7 * 0.6, 1e-5);  // not weakened: no Fresnel
+    EXPECT_NEAR(s.albedo(kDiffuse).g, 0.7, 1e-5);  // not weakened: no Fresnel
     EXPECT_NEAR(s.albedo(kBacklight).g, 0.7 * 0.4, 1e-5);
 }
 
