@@ -19,7 +19,8 @@ struct Blackbody {
         d.param("temperature", &Blackbody::temperature, "How hot they are.")
             .unit("K")
             .range(0, 40000);
-        d.param("intensity", &Blackbody::intensity, "Factor on the radiance; acts without normalize.");
+        d.param("intensity", &Blackbody::intensity,
+                "Factor on the radiance; acts without normalize.");
         d.param("normalize", &Blackbody::normalize,
                 "Only the colour, of luminance 1; off: with the radiance of that temperature.");
         return d.done();
