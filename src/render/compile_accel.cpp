@@ -13,8 +13,9 @@ constexpr std::uint8_t kScattered =
 std::uint32_t mask_of(const SceneObject& object) {
     const std::uint32_t seen = object.visibility & ~std::uint32_t{ray_bit(RayType::Shadow)};
     if ((object.visibility & ray_bit(RayType::Shadow)) == 0) return seen;
-    // One-sided shadows need a look at each hit, as transparent ones do.
+    // One-sided shadows, and those in some lights only, need a look at each hit, as transparent ones do.
     const bool look = object.may_be_transparent || object.may_tint_shadows ||
+                      !object.shadow_lights.empty() ||
                       (object.sidedness & ray_bit(RayType::Shadow)) == 0;
     return seen | (look ? kMaskShadowTransparent : kMaskShadowOpaque);
 }

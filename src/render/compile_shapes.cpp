@@ -281,6 +281,10 @@ std::vector<bool> Compiler::shadow_lights_of(const NodeInstance& node) {
     for (const NodeRef& ref : common.shadow_group.first_key())
         if (const auto found = light_index_.find(ref.node); found != light_index_.end())
             out[found->second] = true;
+    if (std::all_of(out.begin(), out.end(), [](bool casts) { return casts; })) return {};
+    // What hides such a light from light samples is not what hides it from rays that would meet it.
+    for (std::size_t i = 0; i < out.size(); ++i)
+        if (!out[i]) scene_->lights[i].samples_only = true;
     return out;
 }
 

@@ -311,7 +311,8 @@ void Integrator<Tracker>::add_met_light(std::uint32_t index, const LightEval& ev
     if (by_shadow_rays()) {
         Ray shadow = ray;
         shadow.t_max = distance;
-        arriving *= visibility_along(shadow, nullptr).straight * media_transmittance(shadow);
+        arriving *=
+            visibility_along(shadow, nullptr, index).straight * media_transmittance(shadow);
     }
     const auto brought = [&](std::size_t g) {
         if (!groups_.direct_light(g)) return kBlack;
@@ -643,10 +644,9 @@ auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index
     const SceneLight& light = scene_.lights[index];
     const SceneObject& object = *surface.object;
     if (!light.common.cast_shadows || !object.receive_shadows) return {kWhite, kWhite};
-    if (!object.shadow_lights.empty() && !object.shadow_lights[index]) return {kWhite, kWhite};
     Ray ray{start_of_ray(surface, sample.wi), sample.wi, 0, sample.distance * (1 - kShadowEpsilon),
             surface.at.time};
-    Visibility out = visibility_along(ray, object.self_shadows ? nullptr : &object);
+    Visibility out = visibility_along(ray, object.self_shadows ? nullptr : &object, index);
     if (!scene_.volumes.empty() && light.common.cast_volumetric_shadows && !is_black(out.tinted)) {
         const Color left = media_transmittance(ray);
         out.straight *= left;
@@ -661,7 +661,8 @@ auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index
 }
 
 template <class Tracker>
-auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -> Visibility {
+auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore, std::uint32_t light)
+    -> Visibility {
     ++counts.rays;
     const std::uint32_t both = kMaskShadowOpaque | kMaskShadowTransparent;
     const Visibility dark{kBlack, kBlack};
@@ -682,7 +683,8 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore) -
         const Surface surface = make_surface(object, ray, hit, {});
         const bool one_sided =
             !surface.at.entering && (object.sidedness & ray_bit(RayType::Shadow)) == 0;
-        if (&object != ignore && !one_sided) {
+        const bool casts = object.shadow_lights.empty() || object.shadow_lights[light];
+        if (&object != ignore && !one_sided && casts) {
             if (!object.may_be_transparent && !object.may_tint_shadows) return dark;
             ShadePoint at = surface.at;
             at.ray_type = RayType::Shadow;

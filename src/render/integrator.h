@@ -181,7 +181,10 @@ class Integrator {
     /// How much light gets from the light to the surface.
     [[nodiscard]] Visibility visibility(const Surface& surface, std::uint32_t light,
                                         const LightSample& sample);
-    [[nodiscard]] Visibility visibility_along(Ray ray, const SceneObject* ignore);
+    /// ignore  a shape that casts no shadow here, or null
+    /// light   whose shadows they are: shapes may cast them in some lights only
+    [[nodiscard]] Visibility visibility_along(Ray ray, const SceneObject* ignore,
+                                              std::uint32_t light);
     [[nodiscard]] float low_light_survival(std::span<const Color> by_channel,
                                            const SceneLight& light, Color incident) const;
     /// Values by channel for a direction, and the mixture's density.

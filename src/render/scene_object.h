@@ -22,7 +22,7 @@ struct SceneObject {
     std::vector<Mat4f> object_from_world;       ///< inverse of each key
     std::vector<const ShaderProgram*> shaders;  ///< at least one; by the mesh's shader_index
     const LightSampler* lights = nullptr;       ///< lights that illuminate it
-    /// Lights that cast shadows on it, one flag a light; empty: all.
+    /// Lights in which it casts shadows, one flag a light; empty: all.
     std::vector<bool> shadow_lights;
     Name name;
     /// The shape or instance in the graph, which outlives the scene: user data.
@@ -35,7 +35,7 @@ struct SceneObject {
     bool may_tint_shadows = false;    ///< shadow rays may, though other rays do not
     /// What hides lights from it is not what hides them from a ray that leaves it: only light samples find lights.
     [[nodiscard]] bool tampers_with_shadows() const {
-        return !receive_shadows || !self_shadows || !shadow_lights.empty();
+        return !receive_shadows || !self_shadows;
     }
 };
 

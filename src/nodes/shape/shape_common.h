@@ -49,7 +49,7 @@ void describe_shape_common(Describe<T>& d) {
             "Only the lights of light_group illuminate the shape.");
     d.param("light_group", &ShapeCommon::light_group, "Lights for use_light_group.");
     d.param("use_shadow_group", &ShapeCommon::use_shadow_group,
-            "Only the lights of shadow_group cast shadows on the shape.");
+            "The shape casts shadows in the lights of shadow_group only.");
     d.param("shadow_group", &ShapeCommon::shadow_group, "Lights for use_shadow_group.");
     d.param("trace_sets", &ShapeCommon::trace_sets,
             "Names by which shaders choose what they trace.")
