@@ -90,14 +90,13 @@ def _add_material(which: str) -> None:
         _make_ball(core, 0.79)
         material, node = _node_material("hair", "ShaderNodeBsdfHairPrincipled", "Surface")
         node.model = "CHIANG"
-        node.parametrization = "MELANIN"
-        node.inputs["Melanin"].default_value = three.HAIR["melanin"]
-        node.inputs["Melanin Redness"].default_value = three.HAIR["redness"]
         node.inputs["Roughness"].default_value = three.HAIR["roughness"]
         node.inputs["Radial Roughness"].default_value = three.HAIR["roughness"]
         node.inputs["Offset"].default_value = np.radians(2)
-        node.inputs["Random Color"].default_value = 0
         node.inputs["Random Roughness"].default_value = 0
+        # Not by melanin: the two take pigments of other colours.
+        node.parametrization = "ABSORPTION"
+        node.inputs["Absorption Coefficient"].default_value = three.hair_absorption()
         curves = bpy.data.hair_curves.new("fur")
         strands = three.strands()
         curves.add_curves([4] * len(strands))

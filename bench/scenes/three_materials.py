@@ -21,6 +21,14 @@ DEPTH = 32
 Point = tuple[float, float, float]
 
 
+def hair_absorption() -> Point:
+    """Of the hair's pigment, as standard_hair takes it (d'Eon et al. 2011, colours of MaterialX)."""
+    brown, red = (0.419, 0.697, 1.37), (0.187, 0.4, 1.05)
+    amount, share = -math.log(1 - HAIR["melanin"]), HAIR["redness"]
+    r, g, b = (amount * ((1 - share) * x + share * y) for x, y in zip(brown, red, strict=True))
+    return (r, g, b)
+
+
 def strands() -> list[list[Point]]:
     """Strands that stand on a ball of radius 0.8, bent a little: four points each."""
     numbers = random.Random(7)
