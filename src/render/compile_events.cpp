@@ -46,6 +46,12 @@ std::uint8_t extra_depth_of(const ShaderProgram& shader) {
     return static_cast<std::uint8_t>(std::clamp(depth, 0, 100));
 }
 
+/// Whether a lobe can act at all: bodies that are clear inside scatter nothing there.
+bool can_happen(const ShaderProgram& shader, const LobeInfo& lobe) {
+    return lobe.kind != EventKind::Volume || shader.type().fills_volumes ||
+           shader.may_scatter_inside;
+}
+
 }  // namespace
 
 std::uint32_t Compiler::event_index(const Event& event) {
@@ -58,7 +64,7 @@ std::uint32_t Compiler::event_index(const Event& event) {
 void Compiler::gather_events() {
     for (const ShaderProgram* shader : surface_shaders_) {
         for (const LobeInfo& lobe : shader->type().lobes)
-            event_index(event_of(lobe, shader->labels));
+            if (can_happen(*shader, lobe)) event_index(event_of(lobe, shader->labels));
         if (shader->type().eval_closure == nullptr) event_index(event_of(kUnlit, shader->labels));
     }
     for (const SceneLight& light : scene_->lights) {
@@ -83,8 +89,10 @@ void Compiler::fill_records() {
     };
     for (ShaderProgram* shader : surface_shaders_) {
         shader->records.clear();
-        for (const LobeInfo& lobe : shader->type().lobes)
-            fill(shader->records.emplace_back(), event_of(lobe, shader->labels));
+        for (const LobeInfo& lobe : shader->type().lobes) {
+            LobeRecord& record = shader->records.emplace_back();
+            if (can_happen(*shader, lobe)) fill(record, event_of(lobe, shader->labels));
+        }
         const bool exits = switch_of(*shader, "exit_to_background"),
                    thin = switch_of(*shader, "thin_walled") ||
                           switch_of(*shader, "geometry_thin_walled");

@@ -64,6 +64,7 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
     }
     out->may_be_transparent = shader_may_be_transparent(node);
     out->may_tint_shadows = shader_may_tint_shadows(node);
+    out->may_scatter_inside = shader_may_scatter_inside(node);
     scene_->disperses |= shader_may_disperse(node);
     if (const auto* priority = node.find<std::int32_t>("dielectric_priority"))
         out->dielectric_priority = *priority;
@@ -116,6 +117,13 @@ bool Compiler::shader_may_be_transparent(const NodeInstance& node) const {
             return true;
     }
     return false;
+}
+
+/// By the parameter that every shader of murky bodies has.
+bool Compiler::shader_may_scatter_inside(const NodeInstance& node) {
+    const auto* scattering = node.find<Color>("transmission_scatter");
+    return scattering != nullptr &&
+           (!is_black(*scattering) || node.is_linked("transmission_scatter"));
 }
 
 /// What ClosureSet::transmit_shadow says: transmission without caustics.

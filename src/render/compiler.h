@@ -67,6 +67,7 @@ class Compiler {
     void link_closures(const NodeInstance& node, ShaderProgram& program, int depth);
     [[nodiscard]] bool shader_may_be_transparent(const NodeInstance& node) const;
     [[nodiscard]] static bool shader_may_tint_shadows(const NodeInstance& node);
+    [[nodiscard]] static bool shader_may_scatter_inside(const NodeInstance& node);
     [[nodiscard]] static bool shader_may_disperse(const NodeInstance& node);
     const ShaderProgram* default_shader(const std::string& object_label);
     void make_background();

@@ -34,9 +34,7 @@ struct SceneObject {
     bool may_be_transparent = false;  ///< rays may pass straight through
     bool may_tint_shadows = false;    ///< shadow rays may, though other rays do not
     /// What hides lights from it is not what hides them from a ray that leaves it: only light samples find lights.
-    [[nodiscard]] bool tampers_with_shadows() const {
-        return !receive_shadows || !self_shadows;
-    }
+    [[nodiscard]] bool tampers_with_shadows() const { return !receive_shadows || !self_shadows; }
 };
 
 }  // namespace lightsieve
