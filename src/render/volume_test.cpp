@@ -103,6 +103,27 @@ TEST(Volume, WhiteFurnaceVanishes) {
     }
 }
 
+TEST(Volume, AMurkyBallInAFurnaceIsInvisibleWhereNothingIsAbsorbed) {
+    // transmission_scatter exceeds what transmission_color takes away, most in blue: there all that is lost is scattered.
+    const Picture picture = render(
+        frame_text(20, 20, 20, ortho_camera({0, 0, 5}, {0, 0, 0}, 1.4F),
+                   " GI_volume_depth 200\n GI_transmission_depth 200\n GI_specular_depth 200\n "
+                   "GI_total_depth 250\n indirect_sample_clamp 1e30") +
+            node("skydome_light", "sky", "") +
+            node(
+                "standard_surface", "murky",
+                " base 0\n transmission 1\n transmission_color 1 0.6 0.3\n transmission_depth 1\n "
+                "transmission_scatter 1 2 3\n specular_roughness 0\n specular_IOR 1.33\n "
+                "caustics on") +
+            sphere("ball", {0, 0, 0}, 1, "murky"),
+        in_memory({"transmission RGB"}));
+    const Estimate blue = estimate(picture, "RGBA", 2), red = estimate(picture, "RGBA", 0);
+    EXPECT_LT(blue.error, 0.005);
+    EXPECT_NEAR(blue.mean, 1, 0.01);
+    EXPECT_LT(red.mean, 0.6);
+    EXPECT_TRUE(check_lit(picture, "transmission"));
+}
+
 TEST(Volume, OverlappingVolumesAddUp) {
     const std::string two = smoke("scatter 0\n transparent 0.5 0.5 0.5") +
                             node("standard_volume", "fog",
