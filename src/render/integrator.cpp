@@ -102,14 +102,14 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         // the background.
         const Passage passage = pass(ray, met ? hit.t : ray.t_max);
         if (passage == Passage::Ended) return;
-        Surface surface;
-        if (passage == Passage::Scattered) {
-            surface = medium_vertex_;
-        } else {
-            if (!met) return add_escape(ray);
-            const SceneObject& object = scene_.objects[hit.object];
-            if (lights_only_ && !object.may_be_transparent) return;
-            surface = make_surface(object, ray, hit, footprint_);
+        const bool in_medium = passage == Passage::Scattered;
+        if (!in_medium && !met) return add_escape(ray);
+        if (!in_medium && lights_only_ && !scene_.objects[hit.object].may_be_transparent) return;
+        // Made in place: points are too large to copy.
+        Surface surface = in_medium
+                              ? Surface(medium_vertex_)
+                              : make_surface(scene_.objects[hit.object], ray, hit, footprint_);
+        if (!in_medium) {
             surface.at.ray_type = groups_[0].key.ray_type;
             const Arrival arrival = arrive(surface, ray, camera_from_world);
             if (arrival == Arrival::Ended) return;
