@@ -41,6 +41,9 @@ bool Compiler::add_volume(const NodeInstance& node, const NodeInstance& source,
             node.where("step_size"));
         return true;
     }
+    if (object.matte)
+        diagnostics_.warning(Code::ParamPending, "matte has no effect on volumes yet",
+                             node.where("matte"), "the volume is seen as any other");
     SceneVolume volume;
     volume.object = std::move(object);
     check_channels(source, volume);

@@ -301,6 +301,14 @@ TEST(Volume, ASurfaceShaderInAContainerIsReported) {
     EXPECT_EQ(scene.scene().objects.size(), 1U);
 }
 
+TEST(Volume, MatteIsReported) {
+    const TestScene scene(frame_text(4, 4, 1, kFrontView) + smoke("") +
+                              sphere("ball", {0, 0, 0}, 1, "smoke", " step_size 1\n matte on"),
+                          in_memory(), {"matte has no effect"});
+    ASSERT_EQ(scene.diagnostics().items().size(), 1U);
+    EXPECT_EQ(scene.diagnostics().items()[0].where.text(), "on");
+}
+
 TEST(Volume, SenselessNumbersEndInAPicture) {
     for (const char* body :
          {"density 1e30", "density -3", "transparent 0 0 0\n transparent_depth 0",
