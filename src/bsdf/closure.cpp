@@ -88,6 +88,7 @@ void ClosureSet::add_subsurface(int lobe, const SubsurfaceMedium& medium, Color 
 
 void ClosureSet::show_shadows(int background, int shadow, ShadowMatte matte) {
     shadow_matte_ = matte;
+    shadow_matte_.weight = scale_;
     shadow_matte_.background_record = &record(background);
     shadow_matte_.shadow_record = &record(shadow);
 }
@@ -114,18 +115,24 @@ void ClosureSet::add_haze(int lobe, Color extinction, Color scattering, const Ph
         interior_.is_body = true;
         return;
     }
-    const Medium one = medium(lobe, scale_ * extinction, scale_ * scattering, phase);
-    if (is_black(one.extinction) && !one.scatters()) return;
+    add_medium(medium(lobe, scale_ * extinction, scale_ * scattering, phase));
+}
+
+void ClosureSet::add_medium(const Medium& medium) {
+    if (is_black(medium.extinction) && !medium.scatters()) return;
     if (n_media_ == kMaxMedia) {
         ++n_dropped_;
         return;
     }
-    media_[n_media_++] = one;
+    media_[n_media_++] = medium;
 }
 
-void ClosureSet::scatter_in(const Medium& medium, Color weight) {
-    if (!is_finite(weight) || is_black(weight) || n_ == kMaxClosures) return;
-    closures_[n_++] = {PhaseLobe(medium.phase), weight, medium.record, 0, true};
+void ClosureSet::scatter_in_media(float weight) {
+    for (const Medium& m : media()) {
+        const Color total = m.scattering * weight;
+        if (is_black(total) || !is_finite(total) || n_ == kMaxClosures) continue;
+        closures_[n_++] = {PhaseLobe(m.phase), total, m.record, 0, true};
+    }
 }
 
 Color ClosureSet::extinction() const {

@@ -85,6 +85,7 @@ struct ShadowMatte {
     float backlighting = 0;       ///< weight of light on the far side
     Color diffuse{1, 1, 1};       ///< reflectance, for the difference that the shadow makes
     bool alpha_is_mask = true;    ///< else the surface is opaque
+    Color weight{1, 1, 1};        ///< its share of the surface; made by ClosureSet::show_shadows
     const LobeRecord* background_record = nullptr;
     const LobeRecord* shadow_record = nullptr;
 };
@@ -174,8 +175,10 @@ class ClosureSet {
     }
     /// At a point in a volume.
     [[nodiscard]] std::span<const Medium> media() const { return {media_.data(), n_media_}; }
-    /// Makes the light scatter in a medium: adds its phase function.
-    void scatter_in(const Medium& medium, Color weight);
+    /// Makes light scatter in the media: adds the phase function of each, weighted by what it scatters a unit of length.
+    void scatter_in_media(float weight);
+    /// Adds a medium as it is: that of a body at a point inside of it.
+    void add_medium(const Medium& medium);
     /// Extinction of a volume's media together [1/scene unit].
     [[nodiscard]] Color extinction() const;
     /// Closures that did not fit; counted by the renderer, reported at the end.

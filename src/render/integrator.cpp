@@ -468,11 +468,12 @@ template <class Tracker>
 void Integrator<Tracker>::add_shadow_matte(const Surface& surface, const Ray& ray) {
     const ShadowMatte& matte = *closures_.shadow_matte();
     shadow_ = shadow_on(surface, matte);
-    if (matte.alpha_is_mask) closures_.matte(Color::grey(1 - shadow_.mask));
+    if (matte.alpha_is_mask) closures_.matte(matte.weight * (1 - shadow_.mask));
     const float covered = unit(shadow_.mask * matte.opacity), left = 1 - covered;
     const auto show = [&](const LobeRecord& record, Color radiance) {
         deposit({record.terminal, record.event}, [&](std::size_t g) {
-            return groups_[g].key.lights_only ? kBlack : radiance * groups_.indirect(g);
+            return groups_[g].key.lights_only ? kBlack
+                                              : matte.weight * radiance * groups_.indirect(g);
         });
     };
     show(*matte.shadow_record, matte.shadow_color * covered);
@@ -486,7 +487,7 @@ void Integrator<Tracker>::add_shadow_matte(const Surface& surface, const Ray& ra
         if (!light.is_skydome) continue;
         const Color radiance = light.light->escape(ray.direction).radiance * light.common.camera;
         deposit({light.as_background, light.background_event},
-                [&](std::size_t) { return radiance * left; });
+                [&](std::size_t) { return matte.weight * radiance * left; });
     }
 }
 

@@ -134,7 +134,7 @@ class Integrator {
     /// Through media from where the ray has come to up to `to`.
     [[nodiscard]] Passage travel(const Ray& ray, float to);
     [[nodiscard]] Passage collide(const Ray& ray, const Collision& collision);
-    void scatter_in_medium(const Ray& ray, const Collision& collision, Color weight);
+    void make_vertex(const Ray& ray, const Collision& collision);
     void add_media_opacity(const Ray& ray, float to);
     [[nodiscard]] Color media_transmittance(const Ray& ray);
 

@@ -66,21 +66,19 @@ auto Integrator<Tracker>::travel(const Ray& ray, float to) -> Passage {
 template <class Tracker>
 auto Integrator<Tracker>::collide(const Ray& ray, const Collision& collision) -> Passage {
     const Vec3f position = ray.origin + ray.direction * collision.t;
-    Medium body;
-    Color extinction, scattering;
     if (collision.volume != nullptr) {
         look_into(*collision.volume, position, -ray.direction, ray.time, groups_[0].key.ray_type,
                   closures_);
-        extinction = closures_.extinction();
-        for (const Medium& m : closures_.media())
-            scattering += m.scattering;
         // Emission on a way of mean length 1 / bound.
         add_emission(1 / collision.majorant);
     } else {
-        body = interiors_.scattering()->medium;
-        extinction = body.extinction;
-        scattering = body.scattering;
+        closures_.begin_volume(-ray.direction);
+        closures_.add_medium(interiors_.scattering()->medium);
     }
+    const Color extinction = closures_.extinction();
+    Color scattering;
+    for (const Medium& m : closures_.media())
+        scattering += m.scattering;
     if (lights_only_) scattering = kBlack;
 
     const float per_bound = 1 / collision.majorant;
@@ -91,7 +89,8 @@ auto Integrator<Tracker>::collide(const Ray& ray, const Collision& collision) ->
     if (!(to_real + to_null > 0)) return Passage::Ended;
     const float p = to_real / (to_real + to_null);
     if (media_.number() < p) {
-        scatter_in_medium(ray, collision, Color::grey(per_bound / p));
+        closures_.scatter_in_media(per_bound / p);
+        make_vertex(ray, collision);
         return Passage::Scattered;
     }
     const Color factor = null * (1 / (1 - p));
@@ -108,24 +107,14 @@ auto Integrator<Tracker>::collide(const Ray& ray, const Collision& collision) ->
     return Passage::Free;
 }
 
-/// Makes a collision the path's next vertex: closures_ hold the phase functions of the media there, weighted.
-///
-/// weight  1 / (bound * odds): times the coefficient of scattering, what a lobe carries on
+/// Makes a collision the path's next vertex.
 template <class Tracker>
-void Integrator<Tracker>::scatter_in_medium(const Ray& ray, const Collision& collision,
-                                            Color weight) {
-    const std::optional<BodyMedium> body = interiors_.scattering();
-    if (collision.volume == nullptr) {
-        closures_.begin_volume(-ray.direction);
-        closures_.scatter_in(body->medium, body->medium.scattering * weight);
-    } else {
-        for (const Medium& m : closures_.media())
-            if (m.scatters()) closures_.scatter_in(m, m.scattering * weight);
-    }
+void Integrator<Tracker>::make_vertex(const Ray& ray, const Collision& collision) {
     Surface& at = medium_vertex_;
     at = {};
     at.in_medium = true;
-    at.object = collision.volume != nullptr ? &collision.volume->object : body->object;
+    at.object =
+        collision.volume != nullptr ? &collision.volume->object : interiors_.scattering()->object;
     at.shader = at.object->shaders[0];
     at.t = collision.t;
     at.at.position = ray.origin + ray.direction * collision.t;
@@ -158,12 +147,12 @@ Color Integrator<Tracker>::media_transmittance(const Ray& ray) {
 }
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
-#define LIGHTSIEVE_MEDIA(Tracker)                                                              \
-    template void Integrator<Tracker>::begin_media(const Ray&, float);                         \
-    template auto Integrator<Tracker>::travel(const Ray&, float) -> Passage;                   \
-    template auto Integrator<Tracker>::collide(const Ray&, const Collision&) -> Passage;       \
-    template void Integrator<Tracker>::scatter_in_medium(const Ray&, const Collision&, Color); \
-    template void Integrator<Tracker>::add_media_opacity(const Ray&, float);                   \
+#define LIGHTSIEVE_MEDIA(Tracker)                                                        \
+    template void Integrator<Tracker>::begin_media(const Ray&, float);                   \
+    template auto Integrator<Tracker>::travel(const Ray&, float) -> Passage;             \
+    template auto Integrator<Tracker>::collide(const Ray&, const Collision&) -> Passage; \
+    template void Integrator<Tracker>::make_vertex(const Ray&, const Collision&);        \
+    template void Integrator<Tracker>::add_media_opacity(const Ray&, float);             \
     template Color Integrator<Tracker>::media_transmittance(const Ray&);
 LIGHTSIEVE_MEDIA(AovTracker)
 LIGHTSIEVE_MEDIA(LogTracker)

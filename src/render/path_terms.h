@@ -172,11 +172,11 @@ class PathGroups {
     [[nodiscard]] const PathGroup& operator[](std::size_t i) const { return groups_[i]; }
     /// Factor on what group `i` brings from anything but lights, and on all that it scatters.
     [[nodiscard]] float indirect(std::size_t i) const {
-        return factors_[groups_[i].key.indirect].indirect;
+        return factors_[current_][groups_[i].key.indirect].indirect;
     }
     /// Whether lights that the ray of group `i` meets count.
     [[nodiscard]] bool direct_light(std::size_t i) const {
-        return factors_[groups_[i].key.indirect].direct_light;
+        return factors_[current_][groups_[i].key.indirect].direct_light;
     }
     [[nodiscard]] Color total() const {
         Color sum;
@@ -208,7 +208,10 @@ class PathGroups {
     void scatter(std::span<const Channel> channels, std::span<const Color> factors,
                  const DepthRules& rules, const Random& random, Step& step) {
         std::array<PathGroup, kMaxCandidates>& candidates = candidates_;
-        const std::array<Waiting, kMaxFactors> waiting = factors_;
+        // The factors that waited, and those that wait from now on: two lists in turn.
+        const std::array<Waiting, kMaxFactors>& waiting = factors_[current_];
+        current_ = 1 - current_;
+        factors_[current_][0] = {};
         std::array<std::uint8_t, kMaxChannels> factor_of;
         n_factors_ = 1;
         for (std::size_t c = 0; c < channels.size(); ++c)
@@ -256,10 +259,11 @@ class PathGroups {
     };
 
     std::uint8_t factor_index(Waiting factor) {
+        std::array<Waiting, kMaxFactors>& factors = factors_[current_];
         std::size_t i = 0;
-        while (i < n_factors_ && !(factors_[i] == factor))
+        while (i < n_factors_ && !(factors[i] == factor))
             ++i;
-        if (i == n_factors_) factors_[n_factors_++] = factor;
+        if (i == n_factors_) factors[n_factors_++] = factor;
         return static_cast<std::uint8_t>(i);
     }
 
@@ -307,8 +311,9 @@ class PathGroups {
 
     std::array<PathGroup, kMaxGroups> groups_;
     std::size_t n_ = 0;
-    std::array<Waiting, kMaxFactors>
-        factors_;  ///< by GroupKey::indirect; the first changes nothing
+    /// By GroupKey::indirect; the first changes nothing.
+    std::array<std::array<Waiting, kMaxFactors>, 2> factors_;
+    std::size_t current_ = 0;
     std::size_t n_factors_ = 1;
     std::array<PathGroup, kMaxCandidates>
         candidates_;  ///< of `scatter`; kept, because clearing it costs more than using it

@@ -46,6 +46,22 @@ TEST(ShadowMatte, ShadowsOverABackgroundColor) {
     expect_halves(picture, "shadow_diff", Color::grey(0.7F * 2 * kInvPi), kBlack);
 }
 
+TEST(ShadowMatte, ShowsItsShareOfAMixture) {
+    // Half of the ground is black: half of the picture's light, and alpha where no shadow is.
+    const std::string text = ground(
+        " background background_color\n background_color 0.2 0.4 0.8\n shadow_color 0.1 0 0",
+        lambert("black", 0) +
+            node("mix_shader", "half", " shader1 catcher\n shader2 black\n mix 0.5"));
+    const std::string whole = "shader catcher", part = "shader half";
+    const std::size_t at = text.find(whole);
+    ASSERT_NE(at, std::string::npos);
+    const Picture picture =
+        render(std::string(text).replace(at, whole.size(), part), in_memory(kAovs));
+    expect_halves(picture, "RGBA", {0.05F, 0, 0}, {0.1F, 0.2F, 0.4F});
+    for (std::size_t i = 0; i < picture.n_pixels(); ++i)
+        EXPECT_NEAR(picture.alpha("RGBA", i), i % 8 < 4 ? 1 : 0.5F, 1e-6F);
+}
+
 TEST(ShadowMatte, ShowsTheScenesBackground) {
     const Picture picture =
         render(ground("", node("flat", "haze", " color 0.3 0.6 0.9"), " background haze"),

@@ -9,6 +9,7 @@
 
 #include "core/matrix.h"
 #include "core/name.h"
+#include "core/sobol.h"
 #include "scene/node_type.h"
 #include "scene/shade_point.h"
 
@@ -93,15 +94,16 @@ class ShadeServices {
 /// A random number in [0,1) for a shader's own use: the same for the same sample, hit, stream and index.
 [[nodiscard]] inline float shader_random(const ShadePoint& at, std::uint32_t stream,
                                          std::uint32_t index) {
-    std::uint32_t h = at.ray != nullptr ? at.ray->seed : 0;
-    for (const std::uint32_t word : {stream, index}) {
-        // Source: Wellons, "Prospecting for Hash Functions", lowbias32.
-        h += word + 0x9e3779b9U;
-        h = (h ^ (h >> 16U)) * 0x21f0aaadU;
-        h = (h ^ (h >> 15U)) * 0x735a2d97U;
-        h ^= h >> 15U;
-    }
-    return static_cast<float>(h >> 8U) * 0x1p-24F;
+    const std::uint32_t seed = at.ray != nullptr ? at.ray->seed : 0;
+    return unit_float(hash_combine(hash_combine(seed, stream), index));
+}
+
+/// Point number `index` of n_side * n_side in the unit square, one in each of its cells. Takes this stream and the next.
+[[nodiscard]] inline Vec2f shader_stratum(const ShadePoint& at, std::uint32_t stream,
+                                          std::uint32_t index, std::uint32_t n_side) {
+    const auto side = static_cast<float>(n_side);
+    return {(static_cast<float>(index % n_side) + shader_random(at, stream, index)) / side,
+            (static_cast<float>(index / n_side) + shader_random(at, stream + 1, index)) / side};
 }
 
 }  // namespace lightsieve

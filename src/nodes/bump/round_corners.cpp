@@ -53,10 +53,7 @@ NodeType RoundCorners::describe() {
 /// What the probes through one point of the disc add to the sum of normals: one along each axis.
 Vec3f RoundCorners::probe(const ShadePoint& at, Vec3f n, float reach, std::uint32_t i,
                           std::uint32_t n_side) const {
-    const float side = static_cast<float>(n_side);
-    const Vec2f disc = sample_concentric_disk(
-        {(static_cast<float>(i % n_side) + shader_random(at, 1, i)) / side,
-         (static_cast<float>(i / n_side) + shader_random(at, 2, i)) / side});
+    const Vec2f disc = sample_concentric_disk(shader_stratum(at, 1, i, n_side));
     const float half = std::sqrt(std::max(0.0F, 1 - disc.x * disc.x - disc.y * disc.y)) * reach;
     const Frame around = Frame::from_z(n);
     const std::array<Vec3f, 3> axes{around.z, around.x, around.y};

@@ -2,9 +2,9 @@
 //
 // Rays leave the point to all sides: those that meet something in front of the surface find creases, those that meet
 // something behind it find edges; each counts by the angle between both normals and less the farther it is.
-#include "core/sampling.h"
 #include "nodes/bump/bump_common.h"
 #include "nodes/math/math_node.h"
+#include "nodes/state/occlusion.h"
 
 namespace lightsieve {
 namespace {
@@ -48,16 +48,9 @@ NodeType Curvature::describe() {
 float Curvature::bent(const ShadePoint& at, Vec3f n, float side) const {
     const Frame frame = Frame::from_z(n * side);
     const auto n_side = static_cast<std::uint32_t>(std::clamp(samples, 1, kMostSamples));
-    const float widest = std::sin(0.5F * kPi * unit(spread)), strata = static_cast<float>(n_side);
     float sum = 0;
     for (std::uint32_t i = 0; i < n_side * n_side; ++i) {
-        const Vec2f disc =
-            sample_concentric_disk(
-                {(static_cast<float>(i % n_side) + shader_random(at, 50, i)) / strata,
-                 (static_cast<float>(i / n_side) + shader_random(at, 51, i)) / strata}) *
-            widest;
-        const Vec3f wi = frame.world_from_local(
-            {disc.x, disc.y, safe_sqrt(1 - disc.x * disc.x - disc.y * disc.y)});
+        const Vec3f wi = probe_direction(at, frame, spread, 50, i, n_side);
         const Probe probe{at.position + n * (side * 1e-3F * radius),
                           wi,
                           0,

@@ -1,4 +1,4 @@
-// How much of what a point could see is near: ambient occlusion, for ambient_occlusion and utility.
+// Rays that feel what is near: their directions, and ambient occlusion for ambient_occlusion and utility.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +21,17 @@ struct OcclusionSettings {
     bool inclusive = true, self_only = false;
 };
 
+/// Direction number `index` of n_side * n_side: cosine-weighted in the cone around the frame's z that `spread` of the half space
+/// leaves.
+[[nodiscard]] inline Vec3f probe_direction(const ShadePoint& at, const Frame& frame, float spread,
+                                           std::uint32_t stream, std::uint32_t index,
+                                           std::uint32_t n_side) {
+    const float widest = std::sin(0.5F * kPi * unit(spread));
+    const Vec2f disc = sample_concentric_disk(shader_stratum(at, stream, index, n_side)) * widest;
+    return frame.world_from_local(
+        {disc.x, disc.y, safe_sqrt(1 - disc.x * disc.x - disc.y * disc.y)});
+}
+
 /// Part of the cosine-weighted directions that meet something; 0 where no rays can be sent.
 [[nodiscard]] inline float occlusion(const ShadePoint& at, const OcclusionSettings& s) {
     constexpr std::int32_t kMostSamples = 32;
@@ -30,19 +41,11 @@ struct OcclusionSettings {
     if (s.invert_normals) n = -n, side = -side;
     const Frame frame = Frame::from_z(n);
     const auto n_side = static_cast<std::uint32_t>(std::min(s.samples, kMostSamples));
-    const float widest = std::sin(0.5F * kPi * unit(s.spread)),
-                strata = static_cast<float>(n_side);
     const Vec3f p = at.position;
     const float size = 1 + std::max(std::abs(p.x), std::max(std::abs(p.y), std::abs(p.z)));
     float hidden = 0;
     for (std::uint32_t i = 0; i < n_side * n_side; ++i) {
-        const Vec2f disc =
-            sample_concentric_disk(
-                {(static_cast<float>(i % n_side) + shader_random(at, 40, i)) / strata,
-                 (static_cast<float>(i / n_side) + shader_random(at, 41, i)) / strata}) *
-            widest;
-        const Vec3f wi = frame.world_from_local(
-            {disc.x, disc.y, safe_sqrt(1 - disc.x * disc.x - disc.y * disc.y)});
+        const Vec3f wi = probe_direction(at, frame, s.spread, 40, i, n_side);
         // A bumped normal may look below the surface, where there is nothing to see.
         if (!(dot(wi, side) > 0)) {
             hidden += 1;
@@ -59,7 +62,7 @@ struct OcclusionSettings {
         if (at.services->trace(at, probe, hit))
             hidden += s.falloff > 0 ? std::exp(-s.falloff * hit.t) : 1.0F;
     }
-    return hidden / (strata * strata);
+    return hidden / static_cast<float>(n_side * n_side);
 }
 
 }  // namespace lightsieve
