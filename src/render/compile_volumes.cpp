@@ -44,6 +44,10 @@ bool Compiler::add_volume(const NodeInstance& node, const NodeInstance& source,
     if (object.matte)
         diagnostics_.warning(Code::ParamPending, "matte has no effect on volumes yet",
                              node.where("matte"), "the volume is seen as any other");
+    if (const auto* groups = node.find<bool>("use_shadow_group"); groups != nullptr && *groups)
+        diagnostics_.warning(Code::ParamPending, "shadow_group has no effect on volumes yet",
+                             node.where("use_shadow_group"),
+                             "the volume casts shadows in the light of every light");
     SceneVolume volume;
     volume.object = std::move(object);
     check_channels(source, volume);

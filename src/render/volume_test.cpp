@@ -301,12 +301,15 @@ TEST(Volume, ASurfaceShaderInAContainerIsReported) {
     EXPECT_EQ(scene.scene().objects.size(), 1U);
 }
 
-TEST(Volume, MatteIsReported) {
-    const TestScene scene(frame_text(4, 4, 1, kFrontView) + smoke("") +
-                              sphere("ball", {0, 0, 0}, 1, "smoke", " step_size 1\n matte on"),
-                          in_memory(), {"matte has no effect"});
-    ASSERT_EQ(scene.diagnostics().items().size(), 1U);
-    EXPECT_EQ(scene.diagnostics().items()[0].where.text(), "on");
+TEST(Volume, WhatHasNoEffectIsReported) {
+    for (const char* switched : {"matte", "use_shadow_group"}) {
+        const TestScene scene(frame_text(4, 4, 1, kFrontView) + smoke("") +
+                                  sphere("ball", {0, 0, 0}, 1, "smoke",
+                                         " step_size 1\n " + std::string(switched) + " on"),
+                              in_memory(), {"has no effect on volumes"});
+        ASSERT_EQ(scene.diagnostics().items().size(), 1U);
+        EXPECT_EQ(scene.diagnostics().items()[0].where.text(), "on");
+    }
 }
 
 TEST(Volume, SenselessNumbersEndInAPicture) {
