@@ -9,21 +9,24 @@ namespace lightsieve {
 
 void Compiler::make_lights() {
     std::set<std::string> groups;
+    const NodeInstance* portal = nullptr;
     for (const auto& node : graph_.nodes()) {
         if (node->kind() != NodeKind::Light || node->type().make_light == nullptr) continue;
         CompileContext context(*this, node.get(), node->name());
         SceneLight light;
         light.light = node->type().make_light(node->block(), context);
         if (!light.light) continue;
+        if (const bool* opening = node->find<bool>("portal"); opening != nullptr && *opening) {
+            scene_->portals.push_back(std::move(light.light));
+            portal = node.get();
+            continue;
+        }
         light.common = *node->type().light_common(node->block());
         add_filters(*node, light);
         light.name = node->name();
         light.group = light.common.aov.empty() ? "default" : light.common.aov.str();
         light.is_skydome = light.light->is_skydome();
-        // Where a ray to infinity came from is not known when it meets the light, but filters may ask.
-        const bool filtered_sky = light.light->infinite() && !light.common.filters.empty();
-        light.samples_only = filtered_sky || !light.common.cast_shadows ||
-                             light.common.shadow_density != 1 ||
+        light.samples_only = !light.common.cast_shadows || light.common.shadow_density != 1 ||
                              !is_black(light.common.shadow_color);
         const auto index = static_cast<std::uint32_t>(scene_->lights.size());
         light_index_[node.get()] = index;
@@ -31,12 +34,32 @@ void Compiler::make_lights() {
         if (light.group != "default") groups.insert(light.group);
         scene_->lights.push_back(std::move(light));
     }
+    if (portal != nullptr) set_portals(*portal);
     scene_->summary.light_groups.assign(groups.begin(), groups.end());
     std::vector<const Light*> lights;
     for (const SceneLight& light : scene_->lights)
         lights.push_back(light.light.get());
     scene_->light_samplers.push_back(std::make_unique<LightSampler>(lights));
     add_light_geometry();
+}
+
+/// Tells skies where the openings are. `last`: one of them.
+void Compiler::set_portals(const NodeInstance& last) {
+    std::vector<const Light*> portals;
+    for (const auto& portal : scene_->portals)
+        portals.push_back(portal.get());
+    bool sky = false;
+    for (SceneLight& light : scene_->lights) {
+        light.light->set_portals(portals);
+        sky |= light.is_skydome;
+    }
+    if (sky) return;
+    diagnostics_.warning(Code::InvalidValue,
+                         "no skydome shines through portal "
+                         " + last.name().str() + "
+                         "",
+                         last.where("portal"),
+                         "a portal is no light itself: add a skydome_light, or turn `portal` off");
 }
 
 /// Puts the light behind the filters that it names.

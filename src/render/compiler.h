@@ -93,6 +93,7 @@ class Compiler {
 
     // compile_lights.cpp
     void make_lights();
+    void set_portals(const NodeInstance& last);
     void add_filters(const NodeInstance& node, SceneLight& light);
     [[nodiscard]] static LightPlace light_place(const NodeInstance& node);
     void add_light_geometry();

@@ -29,11 +29,18 @@ class FilteredLight final : public Light {
         eval.radiance = filtered(eval.radiance, from, normalize(toward), length(toward));
         return eval;
     }
-    /// Rays to infinity do not say where they come from: light of infinite lights is filtered as at the origin.
-    [[nodiscard]] LightEval escape(Vec3f direction) const override {
-        LightEval eval = light_->escape(direction);
-        eval.radiance = filtered(eval.radiance, {}, direction, kInfinity);
+    [[nodiscard]] LightEval escape(Vec3f from, Vec3f direction) const override {
+        LightEval eval = light_->escape(from, direction);
+        eval.radiance = filtered(eval.radiance, from, direction, kInfinity);
         return eval;
+    }
+    [[nodiscard]] LightEval seen(Vec3f from, Vec3f direction) const override {
+        LightEval eval = light_->seen(from, direction);
+        eval.radiance = filtered(eval.radiance, from, direction, kInfinity);
+        return eval;
+    }
+    void set_portals(std::span<const Light* const> portals) override {
+        light_->set_portals(portals);
     }
     [[nodiscard]] const ShapeGeometry* geometry() const override { return light_->geometry(); }
     [[nodiscard]] bool infinite() const override { return light_->infinite(); }

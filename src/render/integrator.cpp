@@ -64,6 +64,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
     out.clear();
     out.written.resize(scene_.plan.written.size(), {kBlack, 0});
     written_.resize(scene_.plan.written.size());
+    if (!(camera_ray.weight > 0)) return;  // the camera sees nothing there
     path_start_ = Color::grey(camera_ray.weight);
     groups_.start(path_start_);
     tracker_.start(path_start_, out);
@@ -337,7 +338,9 @@ float Integrator<Tracker>::add_infinite_lights(const Ray& ray) {
     float alpha = 0;
     for (const std::uint32_t index : scene_.infinite_lights) {
         const SceneLight& light = scene_.lights[index];
-        const LightEval eval = light.light->escape(ray.direction);
+        const LightEval eval = n_scatter_ == 0
+                                   ? light.light->seen(ray.origin, ray.direction)
+                                   : light.light->escape(last_.position, ray.direction);
         const float shown = n_scatter_ == 0 ? light.common.camera : light.common.transmission;
         if (seen() && (eval.pdf > 0 || !is_black(eval.radiance) || light.is_skydome))
             alpha = std::max(alpha, unit(shown));
@@ -485,7 +488,8 @@ void Integrator<Tracker>::add_shadow_matte(const Surface& surface, const Ray& ra
     for (const std::uint32_t index : scene_.infinite_lights) {
         const SceneLight& light = scene_.lights[index];
         if (!light.is_skydome) continue;
-        const Color radiance = light.light->escape(ray.direction).radiance * light.common.camera;
+        const Color radiance =
+            light.light->seen(ray.origin, ray.direction).radiance * light.common.camera;
         deposit({light.as_background, light.background_event},
                 [&](std::size_t) { return matte.weight * radiance * left; });
     }

@@ -75,7 +75,8 @@ class Scene {
     std::unique_ptr<SceneServices> services;  ///< what shaders may ask of the scene
     std::vector<SceneObject> objects;
     std::vector<SceneLight> lights;
-    std::vector<std::uint32_t> infinite_lights;  ///< indices of lights that rays to infinity meet
+    std::vector<std::unique_ptr<Light>> portals;  ///< openings for skies: no lights themselves
+    std::vector<std::uint32_t> infinite_lights;   ///< indices of lights that rays to infinity meet
     std::vector<std::unique_ptr<LightSampler>>
         light_samplers;                          ///< 0: all lights; others: light groups of shapes
     std::vector<std::uint32_t> light_of_object;  ///< of light_accel: index into lights

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "core/name.h"
 #include "core/vec.h"
@@ -79,8 +80,12 @@ class Light {
     [[nodiscard]] virtual LightSample sample(Vec3f from, Vec2f u) const = 0;
     /// A ray from `from` met the light's geometry.
     [[nodiscard]] virtual LightEval hit(Vec3f from, const LightHit& at) const;
-    /// A ray from anywhere left the scene along unit vector `direction`; black for lights of finite distance.
-    [[nodiscard]] virtual LightEval escape(Vec3f direction) const;
+    /// A ray from `from` left the scene along unit vector `direction`; black for lights of finite distance.
+    [[nodiscard]] virtual LightEval escape(Vec3f from, Vec3f direction) const;
+    /// The same for a ray of the camera, which sees skies beside their portals, too.
+    [[nodiscard]] virtual LightEval seen(Vec3f from, Vec3f direction) const;
+    /// Before the first ray: the portals of the scene, through which skies may want to shine. They outlive the light.
+    virtual void set_portals(std::span<const Light* const> portals);
     /// What rays can meet, in world space; null for lights without extent and for infinite ones.
     [[nodiscard]] virtual const ShapeGeometry* geometry() const { return nullptr; }
     /// Infinitely far: chosen apart from the others, found by rays that leave the scene.
@@ -94,6 +99,8 @@ class Light {
 };
 
 inline LightEval Light::hit(Vec3f, const LightHit&) const { return {}; }
-inline LightEval Light::escape(Vec3f) const { return {}; }
+inline LightEval Light::escape(Vec3f, Vec3f) const { return {}; }
+inline LightEval Light::seen(Vec3f from, Vec3f direction) const { return escape(from, direction); }
+inline void Light::set_portals(std::span<const Light* const>) {}
 
 }  // namespace lightsieve

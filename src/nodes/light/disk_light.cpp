@@ -1,5 +1,6 @@
 // disk_light: a flat disc that shines on one side.
 #include "core/sampling.h"
+#include "nodes/light/flat_profile.h"
 #include "nodes/light/light_common.h"
 
 namespace lightsieve {
@@ -20,12 +21,21 @@ struct DiskLight : LightCommon {
     [[nodiscard]] std::unique_ptr<Light> make_light(NodeContext& context) const;
 };
 
-/// An ellipse in space: a disc after a matrix. Sampled by area.
+/// An ellipse in space: a disc after a matrix. Sampled by area: its own, or that of the disc around the foot of the
+/// perpendicular from which a focused light can come, whichever is smaller.
 class DiskSource final : public Light {
   public:
     /// a, b     half axes (conjugate, not necessarily orthogonal); normal: unit, the side that shines
-    DiskSource(Vec3f center, Vec3f a, Vec3f b, Vec3f normal, float area, const Emission& radiance)
-        : center_(center), a_(a), b_(b), normal_(normal), area_(area), radiance_(radiance) {
+    DiskSource(Vec3f center, Vec3f a, Vec3f b, Vec3f normal, float area, const Emission& radiance,
+               const Spread& spread)
+        : center_(center),
+          a_(a),
+          b_(b),
+          normal_(normal),
+          across_(Frame::from_z(normal)),
+          area_(area),
+          radiance_(radiance),
+          spread_(spread) {
         // Dual vectors: coordinates in units of the half axes.
         const Vec3f n = cross(a, b);
         dual_a_ = cross(b, n) / length_squared(n);
@@ -33,34 +43,55 @@ class DiskSource final : public Light {
         make_geometry();
         bounds_.axis = normal;
         bounds_.cos_spread = 1;
-        bounds_.intensity = radiance.magnitude() * area;
+        bounds_.cos_emission = spread.cosine();
+        bounds_.intensity = radiance.magnitude() * area * spread.peak();
     }
 
     [[nodiscard]] LightSample sample(Vec3f from, Vec2f u) const override {
         const Vec2f d = sample_concentric_disk(u);
-        const Vec3f on = center_ + a_ * d.x + b_ * d.y;
-        const LightEval eval = at(from, on, d);
+        const float height = dot(from - center_, normal_);
+        const float reach = reach_of(height);
+        const Vec3f on = reach < kInfinity ? from - normal_ * height +
+                                                 (across_.x * d.x + across_.y * d.y) * reach
+                                           : center_ + a_ * d.x + b_ * d.y;
+        const LightEval eval = at(from, on);
         if (!(eval.pdf > 0)) return {};
         const float distance = length(on - from);
         return {(on - from) / distance, distance, eval.radiance, eval.pdf, false};
     }
     [[nodiscard]] LightEval hit(Vec3f from, const LightHit& hit) const override {
-        const Vec3f p = hit.position - center_;
-        const Vec2f d{dot(p, dual_a_), dot(p, dual_b_)};
-        // The polygon that rays meet is a little larger than the disc.
-        return d.x * d.x + d.y * d.y <= 1 + 1e-6F ? at(from, hit.position, d) : LightEval{};
+        return at(from, hit.position);
     }
     [[nodiscard]] const ShapeGeometry* geometry() const override { return &geometry_; }
     [[nodiscard]] LightBounds bounds() const override { return bounds_; }
 
   private:
-    [[nodiscard]] LightEval at(Vec3f from, Vec3f on, Vec2f disk) const {
+    /// Radius of the disc of points that shine at a height above the light, if that is less than the light; or else
+    /// infinity.
+    [[nodiscard]] float reach_of(float height) const {
+        const float reach = height * spread_.tangent();
+        return reach > 0 && kPi * reach * reach < area_ ? reach : kInfinity;
+    }
+
+    [[nodiscard]] LightEval at(Vec3f from, Vec3f on) const {
+        const Vec3f p = on - center_;
+        const Vec2f disk{dot(p, dual_a_), dot(p, dual_b_)};
+        // The polygon that rays meet is a little larger than the disc.
+        if (!(disk.x * disk.x + disk.y * disk.y <= 1 + 1e-6F)) return {};
         const Vec3f back = from - on;
         const float r2 = length_squared(back), facing = dot(normal_, back);  // distance * cos
         if (!(facing > 0)) return {};
-        const float pdf = r2 * std::sqrt(r2) / (facing * area_);
-        if (!std::isfinite(pdf)) return {};
-        return {radiance_.at(on, normal_, {0.5F + 0.5F * disk.x, 0.5F + 0.5F * disk.y}), pdf};
+        const float r = std::sqrt(r2), reach = reach_of(facing);
+        float area = area_;
+        if (reach < kInfinity) {
+            if (!(r2 - facing * facing <= reach * reach)) return {};
+            area = kPi * reach * reach;
+        }
+        const float pdf = r2 * r / (facing * area);
+        const float factor = spread_.at(normal_, back);
+        if (!std::isfinite(pdf) || !(factor > 0)) return {};
+        const Vec2f uv{0.5F + 0.5F * disk.x, 0.5F + 0.5F * disk.y};
+        return {radiance_.at(on, normal_, uv) * factor, pdf};
     }
 
     void make_geometry() {
@@ -86,8 +117,10 @@ class DiskSource final : public Light {
 
     Vec3f center_, a_, b_, normal_;
     Vec3f dual_a_, dual_b_;
+    Frame across_;  ///< z along the normal
     float area_;
     Emission radiance_;
+    Spread spread_;
     ShapeGeometry geometry_;
     LightBounds bounds_;
 };
@@ -103,9 +136,9 @@ NodeType DiskLight::describe() {
         .unit("scene units")
         .hard_range(0, kInfinity);
     d.param("spread", &DiskLight::spread,
-            "1: light leaves to all sides; less: focused along the normal.")
-        .range(0, 1)
-        .pending();
+            "1: light leaves to all sides; less: focused along the normal, up to spread * 90 "
+            "degrees from it. The light's power stays the same.")
+        .hard_range(0, 1);
     describe_light_common(d);
     return d.done();
 }
@@ -130,7 +163,8 @@ std::unique_ptr<Light> DiskLight::make_light(NodeContext& context) const {
         return std::make_unique<DarkLight>();
     }
     return std::make_unique<DiskSource>(center, a, b, lightsieve::normalize(up), area,
-                                        emission->scaled(normalize ? 1 / area : 1));
+                                        emission->scaled(normalize ? 1 / area : 1),
+                                        Spread(spread));
 }
 
 }  // namespace

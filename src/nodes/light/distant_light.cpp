@@ -40,7 +40,7 @@ class DistantSource final : public Light {
         return {wi, kInfinity, emission_.toward(wi) * radiance_scale_, pdf(), false};
     }
 
-    [[nodiscard]] LightEval escape(Vec3f direction) const override {
+    [[nodiscard]] LightEval escape(Vec3f, Vec3f direction) const override {
         if (delta_) return {};
         // 2 - 2 cos without cancellation, and a little room for the rounding of sampled directions at the rim.
         const float from_axis = 0.5F * length_squared(direction + travel_);

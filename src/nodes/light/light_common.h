@@ -210,6 +210,18 @@ class DarkLight final : public Light {
     [[nodiscard]] LightBounds bounds() const override { return {}; }
 };
 
+/// The rotation (and mirroring) of a matrix, without its scale; nothing if it has no three directions.
+inline std::optional<Frame> light_axes(const Mat4f& m) {
+    const Vec3f y = m.vector({0, 1, 0}), z = m.vector({0, 0, 1});
+    const float sign = m.determinant3() < 0 ? -1.0F : 1.0F;
+    Frame out;
+    out.y = lightsieve::normalize(y, {});
+    out.z = lightsieve::normalize(z - out.y * dot(z, out.y), {});
+    out.x = cross(out.y, out.z) * sign;
+    if (!(length_squared(out.x) > 0.5F)) return std::nullopt;
+    return out;
+}
+
 /// How much a matrix scales lengths, as the cube root of its volume.
 inline float mean_scale(const Mat4f& m) { return std::cbrt(std::abs(m.determinant3())); }
 

@@ -29,7 +29,7 @@ TEST(DistantLight, ParallelLightGivesItsIrradiance) {
     // The matrix looks along (1, -2, 0.5): that is where the light goes.
     EXPECT_NEAR(dot(s.wi, normalize(Vec3f{-1, 2, -0.5F})), 1, 1e-6F);
     expect_near(s.radiance, {6, 3, 1.5F}, 1e-6F);
-    EXPECT_EQ(b.light->escape(s.wi).pdf, 0);
+    EXPECT_EQ(b.light->escape({}, s.wi).pdf, 0);
     EXPECT_TRUE(b.light->infinite());
     EXPECT_NEAR(b.light->irradiance(), 3.5F, 1e-5F);
 }
@@ -53,8 +53,8 @@ TEST(DistantLight, AnAngleKeepsTheIrradiance) {
     Bench radiance(node_distant_light());
     radiance.node.set("angle", 20.0F).set("normalize", false);
     radiance.make();
-    EXPECT_EQ(radiance.light->escape({0, 0, 1}).radiance, kWhite);
-    EXPECT_EQ(radiance.light->escape({0, 0, -1}).pdf, 0);
+    EXPECT_EQ(radiance.light->escape({}, {0, 0, 1}).radiance, kWhite);
+    EXPECT_EQ(radiance.light->escape({}, {0, 0, -1}).pdf, 0);
 }
 
 TEST(DistantLight, NoDirectionIsAnError) {

@@ -1,5 +1,6 @@
 // quad_light: a flat quadrilateral that shines on one side.
 #include "core/sampling.h"
+#include "nodes/light/flat_profile.h"
 #include "nodes/light/light_common.h"
 #include "nodes/light/rectangle.h"
 #include "nodes/light/triangle_light.h"
@@ -34,43 +35,88 @@ TriangleMesh quad_mesh(const std::array<Vec3f, 4>& p) {
     return mesh;
 }
 
-/// A rectangle, sampled by solid angle.
+/// A rectangle, sampled by solid angle. Of one that is focused, the part from which light can come.
 class RectangleSource final : public Light {
   public:
     /// p  corners whose winding says which side shines: the one from which they run counter-clockwise
-    RectangleSource(const std::array<Vec3f, 4>& p, const Emission& radiance)
-        : rectangle_(p[0], p[1] - p[0], p[3] - p[0]), radiance_(radiance) {
+    RectangleSource(const std::array<Vec3f, 4>& p, const Emission& radiance,
+                    const FlatProfile& profile)
+        : rectangle_(p[0], p[1] - p[0], p[3] - p[0]), radiance_(radiance), profile_(profile) {
         geometry_.data = quad_mesh(p);
         for (const Vec3f corner : p)
             bounds_.box.grow(corner);
         bounds_.axis = rectangle_.normal();
         bounds_.cos_spread = 1;
-        bounds_.intensity = radiance.magnitude() * rectangle_.area();
+        bounds_.cos_emission = profile.spread.cosine();
+        bounds_.intensity = radiance.magnitude() * rectangle_.area() * profile.spread.peak();
     }
 
     [[nodiscard]] LightSample sample(Vec3f from, Vec2f u) const override {
-        const RectangleView view(rectangle_, from);
-        if (!view.visible()) return {};
-        const RectangleView::Sample s = view.sample(u);
-        const Vec3f toward = s.position - from;
-        const float distance = length(toward);
-        const float pdf = view.pdf(s);
-        if (!(pdf > 0)) return {};
-        return {toward / distance, distance, radiance_.at(s.position, rectangle_.normal(), s.uv),
-                pdf, false};
+        if (profile_.spread.is_wide()) return sample_of(rectangle_, from, u);
+        const std::optional<Part> part = lit_part(from);
+        return part ? sample_of(part->rectangle, from, u) : LightSample{};
     }
     [[nodiscard]] LightEval hit(Vec3f from, const LightHit& at) const override {
-        const RectangleView view(rectangle_, from);
-        if (!view.visible()) return {};
-        return {radiance_.at(at.position, rectangle_.normal(), at.uv),
-                view.pdf({at.position, at.uv})};
+        if (profile_.spread.is_wide())
+            return eval_of(RectangleView(rectangle_, from), from, at.position, at.uv, at.uv);
+        const std::optional<Part> part = lit_part(from);
+        if (!part) return {};
+        const Vec2f size = part->high - part->low;
+        const Vec2f uv{(at.uv.x - part->low.x) / size.x, (at.uv.y - part->low.y) / size.y};
+        if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};
+        return eval_of(RectangleView(part->rectangle, from), from, at.position, uv, at.uv);
     }
     [[nodiscard]] const ShapeGeometry* geometry() const override { return &geometry_; }
     [[nodiscard]] LightBounds bounds() const override { return bounds_; }
 
   private:
+    /// A part of the rectangle, between two places along its edges.
+    struct Part {
+        Vec2f low, high;
+        Rectangle rectangle;
+    };
+
+    /// The part that holds every point which shines at `from`: the square around the foot of the perpendicular whose
+    /// half width is seen under the light's half angle.
+    [[nodiscard]] std::optional<Part> lit_part(Vec3f from) const {
+        const float height = dot(from - rectangle_.corner(), rectangle_.normal());
+        if (!(height > 0)) return std::nullopt;
+        const Vec2f foot = rectangle_.uv_of(from);
+        const float reach = height * profile_.spread.tangent();
+        const Vec2f half{reach / rectangle_.width(), reach / rectangle_.height()};
+        const Vec2f low{std::max(0.0F, foot.x - half.x), std::max(0.0F, foot.y - half.y)},
+            high{std::min(1.0F, foot.x + half.x), std::min(1.0F, foot.y + half.y)};
+        if (!(low.x < high.x && low.y < high.y)) return std::nullopt;
+        return Part{low, high, rectangle_.part(low, high)};
+    }
+
+    [[nodiscard]] LightSample sample_of(const Rectangle& rectangle, Vec3f from, Vec2f u) const {
+        const RectangleView view(rectangle, from);
+        if (!view.visible()) return {};
+        const RectangleView::Sample s = view.sample(u);
+        const Vec3f toward = s.position - from;
+        const float distance = length(toward);
+        const Vec2f uv = profile_.spread.is_wide() ? s.uv : rectangle_.uv_of(s.position);
+        const LightEval eval = eval_of(view, from, s.position, s.uv, uv);
+        if (!(eval.pdf > 0)) return {};
+        return {toward / distance, distance, eval.radiance, eval.pdf, false};
+    }
+    /// part_uv  place on the rectangle of the view; uv: on the whole one
+    [[nodiscard]] LightEval eval_of(const RectangleView& view, Vec3f from, Vec3f position,
+                                    Vec2f part_uv, Vec2f uv) const {
+        if (!view.visible()) return {};
+        Color radiance = radiance_.at(position, rectangle_.normal(), uv);
+        if (!profile_.is_plain()) {
+            const float factor = profile_.at(rectangle_.normal(), from - position, uv);
+            if (!(factor > 0)) return {};
+            radiance *= factor;
+        }
+        return {radiance, view.pdf({position, part_uv})};
+    }
+
     Rectangle rectangle_;
     Emission radiance_;
+    FlatProfile profile_;
     ShapeGeometry geometry_;
     LightBounds bounds_;
 };
@@ -93,16 +139,18 @@ NodeType QuadLight::describe() {
             "Size of Arnold's table for sampling textured lights.")
         .ignored();
     d.param("spread", &QuadLight::spread,
-            "1: light leaves to all sides; less: focused along the normal.")
-        .range(0, 1)
-        .pending();
-    d.param("roundness", &QuadLight::roundness, "Rounds the corners, up to a disc.")
-        .range(0, 1)
-        .pending();
-    d.param("soft_edge", &QuadLight::soft_edge, "Width of a smooth edge, relative to the size.")
-        .range(0, 1)
-        .pending();
-    d.param("portal", &QuadLight::portal, "Only lets skydome light in.").pending();
+            "1: light leaves to all sides; less: focused along the normal, up to spread * 90 "
+            "degrees from it. The light's power stays the same.")
+        .hard_range(0, 1);
+    d.param("roundness", &QuadLight::roundness,
+            "Rounds the corners, up to an ellipse. What is left is as bright as before.")
+        .hard_range(0, 1);
+    d.param("soft_edge", &QuadLight::soft_edge,
+            "Width of a smooth edge, as a part of the way from the outline to the middle.")
+        .hard_range(0, 1);
+    d.param("portal", &QuadLight::portal,
+            "The quadrilateral is no light but an opening through which skydomes shine, to its "
+            "lit side; see skydome_light.portal_mode.");
     describe_light_common(d);
     return d.done();
 }
@@ -133,14 +181,19 @@ std::unique_ptr<Light> QuadLight::make_light(NodeContext& context) const {
         std::swap(p[0], p[1]);
         std::swap(p[2], p[3]);
     }
-    auto triangles = std::make_unique<TriangleLight>(quad_mesh(p), *emission, normalize);
+    // A portal's own light is only a measure of the directions through it.
+    const Emission shown = portal ? Emission(ColorInput(kWhite), 1) : *emission;
+    const FlatProfile profile =
+        portal ? FlatProfile{} : FlatProfile{{roundness, soft_edge}, Spread(spread)};
+    const bool by_area = normalize && !portal;
+    auto triangles = std::make_unique<TriangleLight>(quad_mesh(p), shown, by_area, profile);
     if (!(triangles->area() > 0)) {
         warn_no_area(context, "vertices");
         return triangles;
     }
     if (!is_rectangle(p)) return triangles;
-    return std::make_unique<RectangleSource>(
-        p, emission->scaled(normalize ? 1 / triangles->area() : 1));
+    return std::make_unique<RectangleSource>(p, shown.scaled(by_area ? 1 / triangles->area() : 1),
+                                             profile);
 }
 
 }  // namespace

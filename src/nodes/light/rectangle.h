@@ -34,6 +34,19 @@ class Rectangle {
     [[nodiscard]] Vec3f axis_y() const { return axis_y_; }
     [[nodiscard]] Vec3f normal() const { return normal_; }
     [[nodiscard]] float area() const { return width_ * height_; }
+    /// Where a point lies along the edges, [0,1]^2 on the rectangle.
+    [[nodiscard]] Vec2f uv_of(Vec3f point) const {
+        const Vec3f d = point - corner_;
+        return {dot(d, axis_x_) / width_, dot(d, axis_y_) / height_};
+    }
+    /// The part between two places along the edges.
+    [[nodiscard]] Rectangle part(Vec2f low, Vec2f high) const {
+        Rectangle out = *this;
+        out.corner_ += axis_x_ * (low.x * width_) + axis_y_ * (low.y * height_);
+        out.width_ *= high.x - low.x;
+        out.height_ *= high.y - low.y;
+        return out;
+    }
 
   private:
     Vec3f corner_;

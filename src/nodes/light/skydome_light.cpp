@@ -5,7 +5,9 @@
 // light may come has density 0. Seen by the camera a skydome is background (B), not light (L).
 #include "core/parallel.h"
 #include "core/sampling.h"
+#include "nodes/light/dome_format.h"
 #include "nodes/light/light_common.h"
+#include "nodes/light/portals.h"
 
 namespace lightsieve {
 namespace {
@@ -16,7 +18,6 @@ constexpr float kFloor = 0.02F;
 /// Table sizes, in cells around the horizon.
 constexpr std::int32_t kMinResolution = 16, kMaxResolution = 8192;
 
-enum class DomeFormat : std::int32_t { MirroredBall, Angular, LatLong };
 enum class PortalMode : std::int32_t { Off, InteriorOnly, InteriorExterior };
 
 struct SkydomeLight : LightCommon {
@@ -29,25 +30,14 @@ struct SkydomeLight : LightCommon {
     [[nodiscard]] std::unique_ptr<Light> make_light(NodeContext& context) const;
 };
 
-/// Texture coordinates of a direction in light space. The middle of every picture shows +Z, with +X to the left.
-Vec2f dome_uv(DomeFormat format, Vec3f d) {
-    if (format == DomeFormat::LatLong)
-        return {0.5F - std::atan2(d.x, d.z) / (2 * kPi),
-                0.5F + std::asin(std::clamp(d.y, -1.0F, 1.0F)) * kInvPi};
-    // Both discs: direction around the middle, distance by the angle to +Z. Source: Debevec 1998, "Rendering
-    // Synthetic Objects into Real Scenes" (mirrored ball), and his light probe gallery (angular map).
-    const float across = std::sqrt(d.x * d.x + d.y * d.y);
-    const float angle = std::atan2(across, d.z);
-    const float r = format == DomeFormat::Angular ? angle * kInvPi : std::sin(angle * 0.5F);
-    const float scale = across > 0 ? 0.5F * r / across : 0;
-    return {0.5F - d.x * scale, 0.5F + d.y * scale};
-}
-
 class DomeSource final : public Light {
   public:
     DomeSource(const Frame& world_from_light, const Emission& emission, DomeFormat format,
-               std::int32_t resolution)
-        : axes_(world_from_light), emission_(emission), format_(format) {
+               std::int32_t resolution, PortalMode portal_mode)
+        : axes_(world_from_light),
+          emission_(emission),
+          format_(format),
+          portal_mode_(portal_mode) {
         if (emission.is_constant()) {
             irradiance_ = kPi * emission.magnitude();
             return;
@@ -57,7 +47,47 @@ class DomeSource final : public Light {
         make_table();
     }
 
-    [[nodiscard]] LightSample sample(Vec3f, Vec2f u) const override {
+    [[nodiscard]] LightSample sample(Vec3f from, Vec2f u) const override {
+        if (portals_.empty()) return sample_dome(u);
+        const float through = portal_share(from);
+        const bool by_portal = u.x < through;
+        u.x = std::min(by_portal ? u.x / through : (u.x - through) / (1 - through),
+                       kOneMinusEpsilon);
+        const std::optional<Vec3f> wi = by_portal ? portals_.sample(from, u) : sample_dome(u).wi;
+        if (!wi) return {};
+        const LightEval eval = escape(from, *wi);
+        return {*wi, kInfinity, eval.radiance, eval.pdf, false};
+    }
+    [[nodiscard]] LightEval escape(Vec3f from, Vec3f wi) const override {
+        if (portals_.empty()) return seen(from, wi);
+        const float by_portals = portals_.pdf(from, wi);
+        if (!(by_portals > 0) && portal_mode_ == PortalMode::InteriorOnly) return {};
+        LightEval out = seen(from, wi);
+        out.pdf = lerp(out.pdf, by_portals, portal_share(from));
+        return out;
+    }
+    [[nodiscard]] LightEval seen(Vec3f, Vec3f wi) const override {
+        if (height_ == 0) return {emission_.toward(wi), kInvPi / 4};
+        const Vec2f uv = table_uv(axes_.local_from_world(wi));
+        return {radiance(wi), table_.pdf(uv) * cells_per_solid_angle(uv)};
+    }
+    void set_portals(std::span<const Light* const> portals) override {
+        if (portal_mode_ != PortalMode::Off) portals_ = Portals(portals);
+    }
+    [[nodiscard]] bool infinite() const override { return true; }
+    [[nodiscard]] bool is_skydome() const override { return true; }
+    [[nodiscard]] LightBounds bounds() const override { return {}; }
+    [[nodiscard]] float irradiance() const override { return irradiance_; }
+
+  private:
+    /// How many of the samples go through portals: all where nothing else is lit and the sky is even; half where the sky
+    /// is a picture, of which a small sun is not found through a window by chance, or shines beside the portals, too.
+    [[nodiscard]] float portal_share(Vec3f from) const {
+        if (!portals_.seen_from(from)) return portal_mode_ == PortalMode::InteriorOnly ? 1 : 0;
+        return portal_mode_ == PortalMode::InteriorOnly && height_ == 0 ? 1 : 0.5F;
+    }
+
+    [[nodiscard]] LightSample sample_dome(Vec2f u) const {
         if (height_ == 0) {
             const Vec3f wi = sample_uniform_sphere(u);
             return {wi, kInfinity, emission_.toward(wi), kInvPi / 4, false};
@@ -66,17 +96,6 @@ class DomeSource final : public Light {
         const Vec3f wi = axes_.world_from_local(direction(s.uv));
         return {wi, kInfinity, radiance(wi), s.pdf * cells_per_solid_angle(s.uv), false};
     }
-    [[nodiscard]] LightEval escape(Vec3f wi) const override {
-        if (height_ == 0) return {emission_.toward(wi), kInvPi / 4};
-        const Vec2f uv = table_uv(axes_.local_from_world(wi));
-        return {radiance(wi), table_.pdf(uv) * cells_per_solid_angle(uv)};
-    }
-    [[nodiscard]] bool infinite() const override { return true; }
-    [[nodiscard]] bool is_skydome() const override { return true; }
-    [[nodiscard]] LightBounds bounds() const override { return {}; }
-    [[nodiscard]] float irradiance() const override { return irradiance_; }
-
-  private:
     [[nodiscard]] Color radiance(Vec3f wi) const {
         return emission_.toward(wi, dome_uv(format_, axes_.local_from_world(wi)));
     }
@@ -181,6 +200,8 @@ class DomeSource final : public Light {
     Frame axes_;  ///< light space in the world
     Emission emission_;
     DomeFormat format_;
+    PortalMode portal_mode_;
+    Portals portals_;
     std::size_t width_ = 0, height_ = 0;  ///< of the table; 0: an even dome
     Distribution2D table_;
     std::vector<float> edges_;  ///< sine of the latitude at each row's lower edge, and 1
@@ -199,32 +220,21 @@ NodeType SkydomeLight::describe() {
     d.param("format", &SkydomeLight::format, "Layout of a linked colour's texture coordinates.")
         .names({"mirrored_ball", "angular", "latlong"});
     d.param("portal_mode", &SkydomeLight::portal_mode,
-            "How light portals act, of which there are none yet.")
-        .names({"off", "interior_only", "interior_exterior"})
-        .ignored();
+            "What quad lights with `portal` on are to the dome. off: nothing; interior_only: its "
+            "light comes in through them alone (the camera sees it all the same); "
+            "interior_exterior: its light comes from everywhere, and they help to find it.")
+        .names({"off", "interior_only", "interior_exterior"});
     d.param("aov_indirect", &LightCommon::aov_indirect,
             "The light counts as background (B) in light path expressions, not as light (L).");
     describe_light_common(d);
     return d.done();
 }
 
-/// The rotation (and mirroring) of a matrix, without its scale; nothing if it has no three directions.
-std::optional<Frame> rotation(const Mat4f& m) {
-    const Vec3f y = m.vector({0, 1, 0}), z = m.vector({0, 0, 1});
-    const float sign = m.determinant3() < 0 ? -1.0F : 1.0F;
-    Frame out;
-    out.y = lightsieve::normalize(y, {});
-    out.z = lightsieve::normalize(z - out.y * dot(z, out.y), {});
-    out.x = cross(out.y, out.z) * sign;
-    if (!(length_squared(out.x) > 0.5F)) return std::nullopt;
-    return out;
-}
-
 std::unique_ptr<Light> SkydomeLight::make_light(NodeContext& context) const {
     const std::optional<Emission> emission = make_emission(*this, context);
     const std::optional<Mat4f> placement = world_from_light(*this, context);
     if (!emission || !placement) return nullptr;
-    std::optional<Frame> axes = rotation(*placement);
+    std::optional<Frame> axes = light_axes(*placement);
     if (!axes) {
         context.diagnostics().warning(
             Code::InvalidValue,
@@ -232,7 +242,7 @@ std::unique_ptr<Light> SkydomeLight::make_light(NodeContext& context) const {
             context.where("matrix"), "the dome is not rotated");
         axes = Frame{};
     }
-    return std::make_unique<DomeSource>(*axes, *emission, format, resolution);
+    return std::make_unique<DomeSource>(*axes, *emission, format, resolution, portal_mode);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ Color dome_irradiance(const Light& light, Vec3f normal) {
                           static_cast<float>(std::sin(theta) * std::sin(phi))};
             const double weight = std::max(0.0, static_cast<double>(dot(d, normal))) *
                                   std::sin(theta) * square(kPi / kLatitudes);
-            const Color c = light.escape(d).radiance;
+            const Color c = light.escape({}, d).radiance;
             for (int i = 0; i < 3; ++i)
                 sum[i] += weight * static_cast<double>(c[i]);
         }
@@ -60,7 +60,7 @@ TEST(SkydomeLight, PictureIsSampledByBrightness) {
     // Nothing that shines has density 0, and black parts get few samples.
     int black = 0;
     for (std::uint32_t i = 0; i < 2000; ++i) {
-        EXPECT_GT(b.light->escape(b.light->sample({}, sobol(i)).wi).pdf, 0);
+        EXPECT_GT(b.light->escape({}, b.light->sample({}, sobol(i)).wi).pdf, 0);
         black += is_black(b.light->sample({}, sobol(i)).radiance) ? 1 : 0;
     }
     EXPECT_LT(black, 100);
@@ -78,7 +78,7 @@ TEST(SkydomeLight, DetailsBetweenTheSamplesOfTheTableAreNotLost) {
     b.node.set("resolution", 16);
     b.make();
     EXPECT_GT(b.light->irradiance(), 0);
-    EXPECT_GT(b.light->escape(normalize(Vec3f{0.31F, 0.17F, 0.43F})).pdf, 0);
+    EXPECT_GT(b.light->escape({}, normalize(Vec3f{0.31F, 0.17F, 0.43F})).pdf, 0);
 }
 
 TEST(SkydomeLight, Layouts) {
@@ -88,7 +88,7 @@ TEST(SkydomeLight, Layouts) {
         b.context->shader = [](const ShadePoint& at) { return Color{at.uv.x, at.uv.y, 0}; };
         b.node.set_enum("format", format).set("resolution", 16);
         b.make();
-        const Color c = b.light->escape(d).radiance;
+        const Color c = b.light->escape({}, d).radiance;
         return Vec2f{c.r, c.g};
     };
     const auto expect_uv = [](Vec2f uv, float u, float v) {
@@ -117,15 +117,15 @@ TEST(SkydomeLight, MatrixTurnsThePicture) {
     Mat4f m;
     m.m = {{{0, 0, 3, 0}, {0, 3, 0, 0}, {-3, 0, 0, 0}, {7, 8, 9, 1}}};
     b.matrix(m).make();
-    expect_near(b.light->escape({0, 0, 1}).radiance, {0.25F, 0.5F, 0}, 1e-4F);
-    expect_near(b.light->escape({-1, 0, 0}).radiance, {0.5F, 0.5F, -1}, 1e-4F);
+    expect_near(b.light->escape({}, {0, 0, 1}).radiance, {0.25F, 0.5F, 0}, 1e-4F);
+    expect_near(b.light->escape({}, {-1, 0, 0}).radiance, {0.5F, 0.5F, -1}, 1e-4F);
     expect_sound(*b.light, {});
     // A mirrored dome shows a mirrored picture.
     Bench mirrored(node_skydome_light());
     mirrored.context->shader = b.context->shader;
     mirrored.node.set("resolution", 64);
     mirrored.matrix(Mat4f::scale({-1, 1, 1})).make();
-    expect_near(mirrored.light->escape({1, 0, 0}).radiance, {0.75F, 0.5F, 1}, 1e-4F);
+    expect_near(mirrored.light->escape({}, {1, 0, 0}).radiance, {0.75F, 0.5F, 1}, 1e-4F);
     expect_strategies_agree(*mirrored.light, {});
 }
 

@@ -7,6 +7,7 @@
 // Brightness goes by the direction from the centre, also with a radius: a sphere softens shadows, not the beam's edge.
 #include "nodes/light/light_common.h"
 #include "nodes/light/sphere_sampling.h"
+#include "nodes/light/superellipse.h"
 
 namespace lightsieve {
 namespace {
@@ -15,8 +16,6 @@ constexpr Vec3f kOrigin{0, 0, 0}, kLookAt{0, 0, -1}, kUp{0, 1, 0};
 constexpr float kNoRadius = 0;
 /// Half angles end here, where tangents are still tame [deg].
 constexpr float kMaxHalfAngle = 89.9F;
-/// Superellipses with less roundness than this are rectangles to float precision.
-constexpr float kMinRoundness = 0.01F;
 
 struct SpotLight : LightCommon {
     Array<Vec3f> position{&kOrigin, 1, 1}, look_at{&kLookAt, 1, 1},
@@ -34,22 +33,21 @@ class Beam {
   public:
     Beam() = default;
     Beam(const SpotLight& p, Vec3f axis, Vec3f x)
-        : frame_(Frame::from_z_x(axis, x)), cosine_power_(std::max(0.0F, p.cosine_power)) {
+        : frame_(Frame::from_z_x(axis, x)),
+          outline_(p.roundness),
+          cosine_power_(std::max(0.0F, p.cosine_power)) {
         const float half = std::clamp(p.cone_angle * 0.5F, 0.0F, kMaxHalfAngle);
         outer_ = std::tan(deg_to_rad(half));
         inner_ = std::tan(deg_to_rad(std::clamp(half - p.penumbra_angle, 0.0F, half)));
         stretch_y_ = p.aspect_ratio;
-        if (p.roundness >= 1)
-            exponent_ = 2;
-        else
-            exponent_ = p.roundness < kMinRoundness ? kInfinity : 2 / p.roundness;
     }
 
     /// away  from the beam's apex, any length
     [[nodiscard]] float at(Vec3f away) const {
         const Vec3f v = frame_.local_from_world(away);
         if (!(v.z > 0)) return 0;
-        const float distance = norm(std::abs(v.x / v.z), std::abs(v.y / v.z) * stretch_y_);
+        const float distance =
+            outline_.norm(std::abs(v.x / v.z), std::abs(v.y / v.z) * stretch_y_);
         if (!(distance < outer_)) return 0;
         float out = 1;
         if (distance > inner_) {
@@ -63,24 +61,16 @@ class Beam {
     /// Cosine of a half angle that holds the whole beam, corners and all.
     [[nodiscard]] float cos_around() const {
         const float x = outer_, y = outer_ / stretch_y_;
-        const float tangent = exponent_ == 2 ? std::max(x, y) : std::sqrt(x * x + y * y);
+        const float tangent = outline_.is_disc() ? std::max(x, y) : std::sqrt(x * x + y * y);
         return 1 / std::sqrt(1 + tangent * tangent);
     }
 
   private:
-    [[nodiscard]] float norm(float x, float y) const {
-        if (exponent_ == 2) return std::sqrt(x * x + y * y);
-        const float most = std::max(x, y);
-        if (exponent_ == kInfinity || !(most > 0)) return most;
-        // Relative to the larger one, so that high powers stay in range.
-        return most * std::pow(1 + std::pow(std::min(x, y) / most, exponent_), 1 / exponent_);
-    }
-
     Frame frame_;  ///< z along the axis
     float outer_ = 0,
           inner_ = 0;      ///< tangents of the half angles of the cone and of its fully lit part
     float stretch_y_ = 1;  ///< width / height
-    float exponent_ = 2;   ///< of the superellipse
+    Superellipse outline_;
     float cosine_power_ = 0;
 };
 

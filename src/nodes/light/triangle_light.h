@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/sampling.h"
+#include "nodes/light/flat_profile.h"
 #include "nodes/light/light_common.h"
 
 namespace lightsieve {
@@ -17,8 +18,11 @@ class TriangleLight final : public Light {
   public:
     /// mesh      world space, one key; the winding says which side shines
     /// emission  color * intensity * 2^exposure
+    /// profile   of a flat light; meshes have none
     /// Area 0 gives a black light.
-    TriangleLight(TriangleMesh mesh, const Emission& emission, bool normalize_by_area) {
+    TriangleLight(TriangleMesh mesh, const Emission& emission, bool normalize_by_area,
+                  const FlatProfile& profile = {})
+        : profile_(profile) {
         const std::vector<Vec3f>& p = mesh.positions[0];
         const std::size_t n = mesh.indices.size() / 3;
         std::vector<float> areas(n);
@@ -87,10 +91,11 @@ class TriangleLight final : public Light {
         const float distance_squared = length_squared(back);
         const float facing = dot(face.normal, back);  // distance * cos
         if (!(facing > 0)) return {};
-        const float pdf =
-            face.pdf_area * (distance_squared * std::sqrt(distance_squared) / facing);
-        if (!std::isfinite(pdf)) return {};
-        return {emission_.at(on, face.normal, uv), pdf};
+        const float distance = std::sqrt(distance_squared);
+        const float pdf = face.pdf_area * (distance_squared * distance / facing);
+        const float factor = profile_.at(face.normal, back, uv);
+        if (!std::isfinite(pdf) || !(factor > 0)) return {};
+        return {emission_.at(on, face.normal, uv) * factor, pdf};
     }
 
     /// The cone of normals around their mean, and the most area that is seen from one side along an axis.
@@ -119,13 +124,15 @@ class TriangleLight final : public Light {
         float most = length(mean);
         for (const float s : seen)
             most = std::max(most, s);
-        bounds_.intensity = emission_.magnitude() * most;
+        bounds_.intensity = emission_.magnitude() * most * profile_.spread.peak();
+        bounds_.cos_emission = profile_.spread.cosine();
     }
 
     ShapeGeometry geometry_;
     std::vector<Face> faces_;
     Distribution1D choice_;
     Emission emission_;
+    FlatProfile profile_;
     LightBounds bounds_;
     float area_ = 0;
 };
