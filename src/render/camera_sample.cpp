@@ -21,7 +21,7 @@ CameraSample CameraSampler::sample(int x, int y, std::uint32_t index) const {
         (static_cast<float>(x) + 0.5F + out.offset.x) / static_cast<float>(scene_.settings.width),
         (static_cast<float>(y) + 0.5F + out.offset.y) /
             static_cast<float>(scene_.settings.height)};
-    out.time = pass_.camera->sample_time(points[kTimePair].x);
+    out.time = pass_.camera->sample_time(film, points[kTimePair].x);
     out.ray = pass_.camera->ray(film, points[kLensPair], out.time);
     out.state.x = x;
     out.state.y = y;

@@ -180,16 +180,38 @@ void Compiler::make_background() {
     scene_->background = program;
 }
 
+namespace {
+
+/// What a parameter says without its links, as a colour.
+Color written_color(const NodeInstance& node, Name param) {
+    if (const auto* rgb = node.find<Color>(param)) return *rgb;
+    if (const auto* rgba = node.find<Rgba>(param)) return rgba->rgb;
+    if (const auto* number = node.find<float>(param)) return Color::grey(*number);
+    return kBlack;
+}
+
+}  // namespace
+
 ColorInput CompileContext::color_input(Name param) {
     if (node_ == nullptr) return {};
     const ParamInfo* info = node_->type().find(param);
-    if (!node_->is_linked(param) || info == nullptr) return ColorInput(node_->get<Color>(param));
+    if (info == nullptr) return {};
+    if (info->type != ParamType::Node && !node_->is_linked(param))
+        return ColorInput(written_color(*node_, param));
     return compiler_.linked_color(*node_, *info);
 }
 
 ColorInput Compiler::linked_color(const NodeInstance& node, const ParamInfo& param) {
     auto color = std::make_unique<LinkedColor>();
-    color->written = node.get<Color>(param.name);
+    color->written = written_color(node, param.name);
+    if (const NodeRef* named = node.find<NodeRef>(param.name)) {
+        const ShaderProgram* source = *named ? program_for(*named->node) : nullptr;
+        if (source == nullptr) return ColorInput(kBlack);
+        ShaderProgram::Patch patch;
+        patch.type = ParamType::Rgb;
+        patch.source = source;
+        color->links.push_back(patch);
+    }
     for (const Link& link : node.links()) {
         if (link.param != &param) continue;
         const ShaderProgram* source = program_for(*link.source);

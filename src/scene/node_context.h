@@ -46,7 +46,8 @@ class NodeContext {
     [[nodiscard]] virtual SourceSpan where(Name param) const = 0;
     /// The node's own name.
     [[nodiscard]] virtual Name node_name() const = 0;
-    /// The RGB parameter `param` of this node, following its link.
+    /// The RGB, RGBA or FLOAT parameter `param` of this node, following its link; of a NODE parameter, which must not be
+    /// null, the colour of the shader that it names.
     [[nodiscard]] virtual ColorInput color_input(Name param) = 0;
     /// Whether a shader drives the parameter or one of its components.
     [[nodiscard]] virtual bool is_linked(Name param) const = 0;

@@ -2,10 +2,11 @@
 //
 // A camera looks along its local -Z, +X right, +Y up. It is placed by `matrix`, or else by position, look_at, up.
 // The film's point (0,0) is the upper left corner of the frame; screen points run over the screen window with y up.
-// Left out, with a warning where used: lens shift and tilt, rolling shutter, filter maps and uv_remap.
+// A kind of camera only says where in its own space a ray goes (`local_ray`); all else is done here.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "core/diagnostics.h"
@@ -17,7 +18,7 @@
 namespace lightsieve {
 
 namespace camera_defaults {
-inline constexpr Vec2f kWindowMin{-1, -1}, kWindowMax{1, 1}, kNoShift{0, 0};
+inline constexpr Vec2f kWindowMin{-1, -1}, kWindowMax{1, 1};
 inline constexpr Vec3f kPosition{0, 0, 0}, kLookAt{0, 0, -1}, kUp{0, 1, 0};
 inline constexpr float kFov = 60, kFocusDistance = 1, kApertureSize = 0;
 }  // namespace camera_defaults
@@ -43,10 +44,8 @@ struct CameraCommon {
     RollingShutter rolling_shutter = RollingShutter::Off;
     float rolling_shutter_duration = 0;
     float motion_start = 0, motion_end = 1;  ///< where the first and last key lie
-    NodeRef filtermap;                       ///< pending
-    Rgba uv_remap{{0, 0, 0}, 1};             ///< pending
-    Array<Vec2f> lens_shift{&camera_defaults::kNoShift, 1, 1};       ///< only 0 0 is supported
-    Array<Vec2f> lens_tilt_angle{&camera_defaults::kNoShift, 1, 1};  ///< only 0 0 is supported
+    NodeRef filtermap;                       ///< a shader over the film
+    Rgba uv_remap{{0, 0, 0}, 1};             ///< acts only when linked
 };
 
 /// Documents the parameters of `CameraCommon`.
@@ -86,22 +85,21 @@ void describe_camera_common(Describe<T>& d) {
             "Points (time in 0..1, openness) of a polyline, for shutter_type curve.");
     d.param("rolling_shutter", &CameraCommon::rolling_shutter,
             "Edge of the frame that is exposed first.")
-        .names({"off", "top", "bottom", "left", "right"})
-        .pending();
+        .names({"off", "top", "bottom", "left", "right"});
     d.param("rolling_shutter_duration", &CameraCommon::rolling_shutter_duration,
-            "Part of the shutter in which one line is exposed; acts with rolling_shutter.")
-        .ignored();
+            "Part of the shutter in which one line is exposed, with rolling_shutter: 0 is an "
+            "instant, 1 the whole time.")
+        .hard_range(0, 1);
     d.param("motion_start", &CameraCommon::motion_start, "Time of the first motion key.")
         .unit("frames");
     d.param("motion_end", &CameraCommon::motion_end, "Time of the last motion key.")
         .unit("frames");
-    d.param("filtermap", &CameraCommon::filtermap, "Shader that weights the film.").pending();
-    d.param("uv_remap", &CameraCommon::uv_remap, "Warps the film's coordinates.").pending();
-    d.param("lens_shift", &CameraCommon::lens_shift,
-            "Moves the frame on the film; only 0 0 is supported yet.");
-    d.param("lens_tilt_angle", &CameraCommon::lens_tilt_angle,
-            "Tilts the lens; only 0 0 is supported yet.")
-        .unit("deg");
+    d.param("filtermap", &CameraCommon::filtermap,
+            "Shader over the film (u to the right, v upward, 0 to 1) whose mean of the channels "
+            "multiplies the picture. Where it is black nothing is traced.");
+    d.param("uv_remap", &CameraCommon::uv_remap,
+            "Shader over the film whose red and green are the film coordinates to look through "
+            "instead. Acts only when linked.");
 }
 
 /// The shutter as a density over [0,1): a polyline through (time, openness).
@@ -127,16 +125,32 @@ class PlacedCamera : public Camera {
         return world_from_camera_.moves() ? world_from_camera_.at(time).inverse()
                                           : camera_from_world_;
     }
-    [[nodiscard]] float sample_time(float u) const override { return shutter_.sample(u); }
+    [[nodiscard]] float sample_time(Vec2f film, float u) const override;
+    [[nodiscard]] CameraRay ray(Vec2f film, Vec2f lens, float time) const final;
     [[nodiscard]] float shutter_start() const override { return clock_.start; }
     [[nodiscard]] float shutter_end() const override { return clock_.end; }
 
   protected:
-    /// A film point on the screen, mirrored for left handedness. With `frame_ratio` on y these are the formulas of
-    /// the scene format: x = sx, y = sy * (yres/xres) / pixel_aspect_ratio.
+    /// A ray in the camera's own space.
+    struct LocalRay {
+        Vec3f origin{};
+        /// Of the length that goes with a depth of 1 at the clipping planes: z = -1 where they are planes, a unit vector
+        /// where they are spheres. The zero vector: the camera sees nothing there.
+        Vec3f direction{};
+        float spread = 0, width = 0;  ///< as in CameraRay
+    };
+    /// film  after uv_remap; lens, time: as in Camera::ray
+    [[nodiscard]] virtual LocalRay local_ray(Vec2f film, Vec2f lens, float time) const = 0;
+
+    /// A film point in the screen window, x mirrored for left handedness, y up.
+    [[nodiscard]] Vec2f window_point(Vec2f film, float time) const;
+    /// The same with `frame_ratio` on y. With it these are the formulas of the scene format: x = sx,
+    /// y = sy * (yres/xres) / pixel_aspect_ratio.
     [[nodiscard]] Vec2f screen_point(Vec2f film, float time) const;
-    /// A ray from camera to world space; `direction` has z = -1, so that depths along the axis become distances.
-    [[nodiscard]] CameraRay to_world(Vec3f origin, Vec3f direction, float time) const;
+    /// Height of the frame over its width, as it is shown.
+    [[nodiscard]] float frame_ratio() const { return frame_ratio_; }
+    /// -1 for left handedness.
+    [[nodiscard]] float mirror() const { return mirror_; }
     /// Motion keys of another parameter of this camera.
     template <class V>
     [[nodiscard]] Keyed<V> keyed(const Array<V>& array, V fallback) const {
@@ -151,9 +165,12 @@ class PlacedCamera : public Camera {
     Mat4f camera_from_world_;  ///< at shutter time 0
     Keyed<Vec2f> window_min_, window_max_;
     Shutter shutter_;
-    float mirror_ = 1;       ///< -1 for left handedness
-    float frame_ratio_ = 1;  ///< (yres/xres) / pixel_aspect_ratio
-    int frame_width_ = 1;    ///< pixels
+    RollingShutter rolling_;
+    float rolling_duration_;                          ///< of one line, as a part of the shutter
+    std::optional<ColorInput> uv_remap_, filtermap_;  ///< where they are used
+    float mirror_ = 1;                                ///< -1 for left handedness
+    float frame_ratio_ = 1;                           ///< (yres/xres) / pixel_aspect_ratio
+    int frame_width_ = 1;                             ///< pixels
     float near_clip_, far_clip_, weight_ = 1;
 };
 

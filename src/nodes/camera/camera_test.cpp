@@ -7,8 +7,12 @@
 
 namespace lightsieve {
 
-NodeType node_persp_camera();
+NodeType node_cyl_camera();
+NodeType node_fisheye_camera();
 NodeType node_ortho_camera();
+NodeType node_persp_camera();
+NodeType node_spherical_camera();
+NodeType node_vr_camera();
 
 namespace {
 
@@ -194,25 +198,26 @@ TEST(OrthoCamera, RaysAreParallelInSceneUnits) {
 
 TEST(CameraShutter, TypesShapeTheTimes) {
     TestNode node(node_ortho_camera());
-    EXPECT_EQ(make(node)->sample_time(0.3F), 0.3F);
+    EXPECT_EQ(make(node)->sample_time({}, 0.3F), 0.3F);
     node.set_enum("shutter_type", 1);
     // Triangle: the area up to t <= 1/2 is 2 t^2.
-    EXPECT_NEAR(make(node)->sample_time(0.02F), 0.1F, 1e-5);
-    EXPECT_NEAR(make(node)->sample_time(0.5F), 0.5F, 1e-5);
-    EXPECT_NEAR(make(node)->sample_time(0.98F), 0.9F, 1e-5);
+    EXPECT_NEAR(make(node)->sample_time({}, 0.02F), 0.1F, 1e-5);
+    EXPECT_NEAR(make(node)->sample_time({}, 0.5F), 0.5F, 1e-5);
+    EXPECT_NEAR(make(node)->sample_time({}, 0.98F), 0.9F, 1e-5);
     node.set_enum("shutter_type", 2)
         .set_array<Vec2f>("shutter_curve", {{0.25F, 1}, {0.5F, 1}, {0.5F, 3}, {0.75F, 3}});
-    EXPECT_NEAR(make(node)->sample_time(0.125F), 0.375F, 1e-5);
-    EXPECT_NEAR(make(node)->sample_time(0.625F), 0.625F, 1e-5);
-    EXPECT_LT(make(node)->sample_time(0x1.fffffep-1F), 1);
+    EXPECT_NEAR(make(node)->sample_time({}, 0.125F), 0.375F, 1e-5);
+    EXPECT_NEAR(make(node)->sample_time({}, 0.625F), 0.625F, 1e-5);
+    EXPECT_LT(make(node)->sample_time({}, 0x1.fffffep-1F), 1);
     node.set_array<Vec2f>("shutter_curve", {{0.5F, 1}, {0.25F, 1}});
     TestContext context;
-    EXPECT_EQ(make(node, context)->sample_time(0.3F), 0.3F);
+    EXPECT_EQ(make(node, context)->sample_time({}, 0.3F), 0.3F);
     EXPECT_EQ(context.count(Code::InvalidValue), 1U);
 }
 
 TEST(Cameras, BadPlacementIsAnError) {
-    for (const NodeType& type : {node_persp_camera(), node_ortho_camera()}) {
+    for (const NodeType& type : {node_persp_camera(), node_ortho_camera(), node_fisheye_camera(),
+                                 node_spherical_camera(), node_cyl_camera(), node_vr_camera()}) {
         TestNode node(type);
         for (const Mat4f& bad :
              {Mat4f::scale({1, 1, 0}),
@@ -223,16 +228,6 @@ TEST(Cameras, BadPlacementIsAnError) {
             EXPECT_TRUE(context.diagnostics().has_errors());
         }
     }
-}
-
-TEST(Cameras, LensShiftIsNotSilentlyLeftOut) {
-    TestNode node(node_persp_camera());
-    node.set_array<Vec2f>("lens_shift", {{0, 0}, {0, 0}}, 2);
-    static_cast<void>(make(node));
-    node.set_array<Vec2f>("lens_shift", {{0, 0}, {0.1F, 0}}, 2);
-    TestContext context;
-    static_cast<void>(make(node, context));
-    EXPECT_EQ(context.count(Code::ParamPending), 1U);
 }
 
 }  // namespace

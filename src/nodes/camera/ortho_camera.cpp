@@ -7,11 +7,11 @@ namespace {
 class OrthoCameraRays final : public PlacedCamera {
   public:
     using PlacedCamera::PlacedCamera;
-    [[nodiscard]] CameraRay ray(Vec2f film, Vec2f, float time) const override {
+
+  private:
+    [[nodiscard]] LocalRay local_ray(Vec2f film, Vec2f, float time) const override {
         const Vec2f screen = screen_point(film, time);
-        CameraRay out = to_world({screen.x, screen.y, 0}, {0, 0, -1}, time);
-        out.width = pixel_width();
-        return out;
+        return {{screen.x, screen.y, 0}, {0, 0, -1}, 0, pixel_width()};
     }
 };
 

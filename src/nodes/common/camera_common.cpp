@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "core/sampling.h"
+#include "scene/shade_point.h"
+
 namespace lightsieve {
 namespace {
 
@@ -60,12 +63,11 @@ Shutter make_shutter(const CameraCommon& p, NodeContext& context) {
     return {};
 }
 
-void warn_if_used(const Array<Vec2f>& values, const char* param, NodeContext& context) {
-    const auto keys = key_values(values, Vec2f{});
-    if (std::all_of(keys.begin(), keys.end(), [](Vec2f v) { return v == Vec2f{}; })) return;
-    context.diagnostics().warning(
-        Code::ParamPending, fmt::format("\"{}\" is not supported yet and taken as 0 0", param),
-        context.where(param), "the picture's framing differs from the scene's intent");
+/// What a shader says at a place of the film.
+Color film_color(const ColorInput& shader, Vec2f film) {
+    ShadePoint point;
+    point.uv = {film.x, 1 - film.y};
+    return shader.at(point);
 }
 
 }  // namespace
@@ -105,6 +107,8 @@ PlacedCamera::PlacedCamera(const CameraCommon& p, NodeContext& context)
       window_min_(keyed(p.screen_window_min, camera_defaults::kWindowMin)),
       window_max_(keyed(p.screen_window_max, camera_defaults::kWindowMax)),
       shutter_(make_shutter(p, context)),
+      rolling_(p.rolling_shutter),
+      rolling_duration_(std::clamp(p.rolling_shutter_duration, 0.0F, 1.0F)),
       mirror_(p.handedness == Handedness::Left ? -1.0F : 1.0F),
       near_clip_(std::max(0.0F, p.near_clip)),
       far_clip_(p.far_clip),
@@ -114,27 +118,62 @@ PlacedCamera::PlacedCamera(const CameraCommon& p, NodeContext& context)
     const float aspect = frame.pixel_aspect_ratio > 0 ? frame.pixel_aspect_ratio : 1;
     frame_ratio_ =
         static_cast<float>(std::max(1, frame.height)) / static_cast<float>(frame_width_) / aspect;
-    warn_if_used(p.lens_shift, "lens_shift", context);
-    warn_if_used(p.lens_tilt_angle, "lens_tilt_angle", context);
+    if (context.is_linked("uv_remap")) uv_remap_ = context.color_input("uv_remap");
+    if (p.filtermap) filtermap_ = context.color_input("filtermap");
+    if (!(rolling_duration_ >= 0)) rolling_duration_ = 0;
+}
+
+float PlacedCamera::sample_time(Vec2f film, float u) const {
+    const float time = shutter_.sample(u);
+    if (rolling_ == RollingShutter::Off) return time;
+    const float down = std::clamp(film.y, 0.0F, kOneMinusEpsilon),
+                right = std::clamp(film.x, 0.0F, kOneMinusEpsilon);
+    float line = 0;  // how much of the frame was exposed before
+    switch (rolling_) {
+        case RollingShutter::Off: break;
+        case RollingShutter::Top: line = down; break;
+        case RollingShutter::Bottom: line = 1 - down; break;
+        case RollingShutter::Left: line = right; break;
+        case RollingShutter::Right: line = 1 - right; break;
+    }
+    return std::clamp(std::lerp(line, time, rolling_duration_), 0.0F, kOneMinusEpsilon);
+}
+
+CameraRay PlacedCamera::ray(Vec2f film, Vec2f lens, float time) const {
+    CameraRay out;
+    out.weight =
+        filtermap_ ? weight_ * std::max(0.0F, average(film_color(*filtermap_, film))) : weight_;
+    Vec2f seen = film;
+    if (uv_remap_) {
+        const Color uv = film_color(*uv_remap_, film);
+        seen = {uv.r, 1 - uv.g};
+    }
+    const Mat4f world_from_camera = world_from_camera_.at(time);
+    LocalRay local;
+    if (out.weight > 0) local = local_ray(seen, lens, time);
+    if (!(length_squared(local.direction) > 0)) {
+        out.weight = 0;
+        local.direction = {0, 0, -1};
+    }
+    const Vec3f d = world_from_camera.vector(local.direction);
+    const float distance_per_depth = length(d);
+    out.origin = world_from_camera.point(local.origin);
+    out.direction = normalize(d);
+    out.t_min = near_clip_ * distance_per_depth;
+    out.t_max = far_clip_ * distance_per_depth;
+    out.spread = local.spread;
+    out.width = local.width;
+    return out;
+}
+
+Vec2f PlacedCamera::window_point(Vec2f film, float time) const {
+    const Vec2f low = window_min_.at(time), high = window_max_.at(time);
+    return {mirror_ * std::lerp(low.x, high.x, film.x), std::lerp(high.y, low.y, film.y)};
 }
 
 Vec2f PlacedCamera::screen_point(Vec2f film, float time) const {
-    const Vec2f low = window_min_.at(time), high = window_max_.at(time);
-    return {mirror_ * std::lerp(low.x, high.x, film.x),
-            frame_ratio_ * std::lerp(high.y, low.y, film.y)};
-}
-
-CameraRay PlacedCamera::to_world(Vec3f origin, Vec3f direction, float time) const {
-    const Mat4f world_from_camera = world_from_camera_.at(time);
-    const Vec3f d = world_from_camera.vector(direction);
-    const float distance_per_depth = length(d);
-    CameraRay ray;
-    ray.origin = world_from_camera.point(origin);
-    ray.direction = normalize(d);
-    ray.t_min = near_clip_ * distance_per_depth;
-    ray.t_max = far_clip_ * distance_per_depth;
-    ray.weight = weight_;
-    return ray;
+    const Vec2f p = window_point(film, time);
+    return {p.x, p.y * frame_ratio_};
 }
 
 float PlacedCamera::pixel_width() const {

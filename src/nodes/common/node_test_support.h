@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -26,7 +27,12 @@ class TestContext final : public NodeContext {
         return {text, 0, text->text.size()};
     }
     [[nodiscard]] Name node_name() const override { return "tested"; }
-    [[nodiscard]] ColorInput color_input(Name) override { return ColorInput(kWhite); }
+    [[nodiscard]] ColorInput color_input(Name) override {
+        if (!shader) return ColorInput(kWhite);
+        return {&shader, [](const void* program, const ShadePoint& at) {
+                    return ShaderValue{(*static_cast<const Shader*>(program))(at), 1};
+                }};
+    }
     [[nodiscard]] bool is_linked(Name param) const override {
         return linked.contains(param.str());
     }
@@ -54,6 +60,8 @@ class TestContext final : public NodeContext {
         return n;
     }
 
+    using Shader = std::function<Color(const ShadePoint&)>;
+    Shader shader;  ///< what drives colours; none: they are white
     std::set<std::string> linked;
     std::map<std::string, std::vector<Name>> texts;  ///< for possible_texts, by parameter
     Frame size{160, 120, 1};
