@@ -61,6 +61,13 @@ float bounded(float x, TextureWrap wrap) {
     return x;
 }
 
+/// A side of a footprint that OpenImageIO can work with.
+Vec2f bounded(Vec2f side) {
+    const float size = std::hypot(side.x, side.y);
+    if (!std::isfinite(size)) return {};
+    return size > kMaxFootprint ? side * (kMaxFootprint / size) : side;
+}
+
 /// Distinguishes caches, also a new one at the address of an old one.
 std::atomic<std::uint64_t> next_cache_id{1};
 
@@ -211,7 +218,7 @@ const Texture* TextureCache::open(const std::string& path, std::string_view colo
 
 const TextureInfo& TextureCache::info(const Texture& texture) { return texture.info; }
 
-Rgba TextureCache::lookup(const Texture& texture, Vec2f uv, float footprint,
+Rgba TextureCache::lookup(const Texture& texture, Vec2f uv, TextureFootprint footprint,
                           const TextureSampling& sampling) const noexcept {
     const int first = sampling.start_channel;
     const int n_there = std::max(0, texture.info.n_channels - first);
@@ -220,18 +227,17 @@ Rgba TextureCache::lookup(const Texture& texture, Vec2f uv, float footprint,
 
     const float s = bounded(uv.x, sampling.wrap_s);
     const float t = 1 - bounded(uv.y, sampling.wrap_t);  // files begin with the top row
-    const float width = footprint > 0 ? std::min(footprint, kMaxFootprint) : 0;
+    const Vec2f across = bounded(footprint.across), along = bounded(footprint.along);
     OIIO::TextureOpt options;
     options.firstchannel = first;
     options.swrap = static_cast<OIIO::TextureOpt::Wrap>(oiio_wrap(sampling.wrap_s));
     options.twrap = static_cast<OIIO::TextureOpt::Wrap>(oiio_wrap(sampling.wrap_t));
     options.interpmode = static_cast<OIIO::TextureOpt::InterpMode>(oiio_filter(sampling.filter));
-    // The footprint is round, but only the anisotropic mode knows smart bicubic interpolation.
     options.mipmode = OIIO::TextureOpt::MipModeAniso;
     float v[4] = {0, 0, 0, 1};
     try {
-        if (!state_->system->texture(texture.handle, state_->thread(), options, s, t, width, 0, 0,
-                                     width, n, v)) {
+        if (!state_->system->texture(texture.handle, state_->thread(), options, s, t, across.x,
+                                     -across.y, along.x, -along.y, n, v)) {
             state_->note_failure(texture);
             return {kBlack, 1};
         }

@@ -23,6 +23,14 @@ enum class TextureWrap : std::int32_t { Periodic, Black, Clamp, Mirror, File };
 /// Interpolation between texels. SmartBicubic: a cubic B-spline where texels are larger than the footprint, else bilinear.
 enum class TextureFilter : std::int32_t { Closest, Bilinear, Bicubic, SmartBicubic };
 
+/// The area that a look-up averages: an ellipse within the parallelogram of two vectors [uv units]. Zero: the largest
+/// level, magnified.
+struct TextureFootprint {
+    Vec2f across, along;
+    /// As wide in all directions.
+    static TextureFootprint round(float width) { return {{width, 0}, {0, width}}; }
+};
+
 /// One open texture; belongs to its cache.
 struct Texture;
 
@@ -65,9 +73,8 @@ class TextureCache {
 
     /// The filtered colour in the rendering space and alpha (1 if the file has none). Hot path: no locks of ours, no strings.
     ///
-    /// uv         v = 0 is the bottom row
-    /// footprint  width of the area to be averaged [uv units]; 0: the largest level, magnified
-    [[nodiscard]] Rgba lookup(const Texture& texture, Vec2f uv, float footprint,
+    /// uv  v = 0 is the bottom row
+    [[nodiscard]] Rgba lookup(const Texture& texture, Vec2f uv, TextureFootprint footprint,
                               const TextureSampling& sampling) const noexcept;
 
     /// Reports look-ups that failed while rendering (files damaged or gone); such look-ups gave black.

@@ -39,7 +39,7 @@ class TextureTest : public FolderTest {
         return cache_.lookup(texture,
                              {(static_cast<float>(x) + 0.5F) / static_cast<float>(w),
                               1 - (static_cast<float>(y) + 0.5F) / static_cast<float>(h)},
-                             0, sampling);
+                             {}, sampling);
     }
     Diagnostics diagnostics_;
     TextureCache cache_;
@@ -99,9 +99,11 @@ TEST_F(TextureTest, ColorsAreLinearBeforeTheyAreFiltered) {
     TextureSampling sampling;
     sampling.filter = TextureFilter::Bilinear;
     // Halfway between black and white is half the light, not what code value 128 stands for (0.2158).
-    EXPECT_NEAR(cache_.lookup(*open("a.png"), {0.5F, 0.5F}, 0, sampling).rgb.r, 0.5F, 1e-5F);
+    EXPECT_NEAR(cache_.lookup(*open("a.png"), {0.5F, 0.5F}, {}, sampling).rgb.r, 0.5F, 1e-5F);
     // The same for the mean over the whole picture, from a mip level.
-    EXPECT_NEAR(cache_.lookup(*open("a.png"), {0.3F, 0.4F}, 4, sampling).rgb.r, 0.5F, 1e-5F);
+    EXPECT_NEAR(
+        cache_.lookup(*open("a.png"), {0.3F, 0.4F}, TextureFootprint::round(4), sampling).rgb.r,
+        0.5F, 1e-5F);
 }
 
 TEST_F(TextureTest, GreyAndAlphaChannels) {
@@ -128,13 +130,13 @@ TEST_F(TextureTest, ChannelsMayBeChosen) {
     TextureSampling sampling;
     sampling.single_channel = true;
     sampling.start_channel = 1;
-    expect_near(cache_.lookup(t, {0.5F, 0.5F}, 0, sampling), {Color::grey(0.4F), 1}, 1e-6F);
+    expect_near(cache_.lookup(t, {0.5F, 0.5F}, {}, sampling), {Color::grey(0.4F), 1}, 1e-6F);
     sampling.single_channel = false;
-    expect_near(cache_.lookup(t, {0.5F, 0.5F}, 0, sampling), {{0.4F, 0.6F, 1}, 1}, 1e-6F);
+    expect_near(cache_.lookup(t, {0.5F, 0.5F}, {}, sampling), {{0.4F, 0.6F, 1}, 1}, 1e-6F);
     sampling.start_channel = 9;
-    expect_near(cache_.lookup(t, {0.5F, 0.5F}, 0, sampling), {kBlack, 1}, 0);
+    expect_near(cache_.lookup(t, {0.5F, 0.5F}, {}, sampling), {kBlack, 1}, 0);
     sampling.start_channel = -1;
-    expect_near(cache_.lookup(t, {0.5F, 0.5F}, 0, sampling), {kBlack, 1}, 0);
+    expect_near(cache_.lookup(t, {0.5F, 0.5F}, {}, sampling), {kBlack, 1}, 0);
 }
 
 TEST_F(TextureTest, WrapModes) {
@@ -144,7 +146,7 @@ TEST_F(TextureTest, WrapModes) {
         TextureSampling sampling;
         sampling.filter = TextureFilter::Closest;
         sampling.wrap_s = sampling.wrap_t = wrap;
-        return cache_.lookup(t, {u, 0.5F}, 0, sampling).rgb.r;
+        return cache_.lookup(t, {u, 0.5F}, {}, sampling).rgb.r;
     };
     EXPECT_NEAR(at(1.125F, TextureWrap::Periodic), 0.1F, 1e-6F);
     EXPECT_NEAR(at(-0.125F, TextureWrap::Periodic), 0.4F, 1e-6F);
@@ -166,9 +168,9 @@ TEST_F(TextureTest, MirrorTurnsTheRightWayInV) {
     TextureSampling sampling;
     sampling.filter = TextureFilter::Closest;
     sampling.wrap_t = TextureWrap::Mirror;
-    EXPECT_NEAR(cache_.lookup(*open("a.tif"), {0.5F, 0.125F}, 0, sampling).rgb.r, 0.4F, 1e-6F);
-    EXPECT_NEAR(cache_.lookup(*open("a.tif"), {0.5F, 1.125F}, 0, sampling).rgb.r, 0.1F, 1e-6F);
-    EXPECT_NEAR(cache_.lookup(*open("a.tif"), {0.5F, -0.125F}, 0, sampling).rgb.r, 0.4F, 1e-6F);
+    EXPECT_NEAR(cache_.lookup(*open("a.tif"), {0.5F, 0.125F}, {}, sampling).rgb.r, 0.4F, 1e-6F);
+    EXPECT_NEAR(cache_.lookup(*open("a.tif"), {0.5F, 1.125F}, {}, sampling).rgb.r, 0.1F, 1e-6F);
+    EXPECT_NEAR(cache_.lookup(*open("a.tif"), {0.5F, -0.125F}, {}, sampling).rgb.r, 0.4F, 1e-6F);
 }
 
 TEST_F(TextureTest, MagnificationIsACubicBSpline) {
@@ -178,7 +180,9 @@ TEST_F(TextureTest, MagnificationIsACubicBSpline) {
     const auto at = [&](float texels, TextureFilter filter) {
         TextureSampling sampling;
         sampling.filter = filter;
-        return cache_.lookup(*open("a.tif"), {texels / 8, 0.5F}, 1e-4F, sampling).rgb.r;
+        return cache_
+            .lookup(*open("a.tif"), {texels / 8, 0.5F}, TextureFootprint::round(1e-4F), sampling)
+            .rgb.r;
     };
     // The uniform cubic B-spline: 4/6 at its centre, 23/48 half a texel off, 1/6 at the next texel.
     EXPECT_NEAR(at(4.5F, TextureFilter::SmartBicubic), 4.0F / 6, 2e-3F);
@@ -197,8 +201,51 @@ TEST_F(TextureTest, LargeFootprintsAverage) {
     }
     write("a.png", 64, 1, values);
     const Texture& t = *open("a.png", "");
-    EXPECT_NEAR(cache_.lookup(t, {0.37F, 0.61F}, 1, {}).rgb.g, 0.5F, 0.01F);
-    EXPECT_NEAR(cache_.lookup(t, {0.37F, 0.61F}, 0.1F, {}).rgb.g, 0.5F, 0.05F);
+    EXPECT_NEAR(cache_.lookup(t, {0.37F, 0.61F}, TextureFootprint::round(1), {}).rgb.g, 0.5F,
+                0.01F);
+    EXPECT_NEAR(cache_.lookup(t, {0.37F, 0.61F}, TextureFootprint::round(0.1F), {}).rgb.g, 0.5F,
+                0.05F);
+}
+
+TEST_F(TextureTest, LongFootprintsAverageAlongTheirLengthAlone) {
+    // Stripes four texels wide, upright, and a slope that rises with v.
+    std::vector<float> values;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            values.push_back(x % 8 < 4 ? 1.0F : 0.0F);
+            values.push_back(1 - (static_cast<float>(y) + 0.5F) / 64);
+            values.push_back(0);
+        }
+    write("a.tif", 64, 3, values, PictureType::Float);
+    const Texture& t = *open("a.tif", "");
+    TextureSampling sampling;
+    sampling.filter = TextureFilter::Bilinear;
+    const float texel = 1 / 64.0F;
+    const Vec2f lit{34 * texel, 0.5F};  // in the middle of a bright stripe
+    const TextureFootprint upright{{texel, 0}, {0, 16 * texel}},
+        level{{texel, 0}, {16 * texel, 0}};
+    EXPECT_GT(cache_.lookup(t, lit, upright, sampling).rgb.r, 0.98F);
+    EXPECT_NEAR(cache_.lookup(t, lit, TextureFootprint::round(16 * texel), sampling).rgb.r, 0.5F,
+                0.1F);
+    EXPECT_NEAR(cache_.lookup(t, lit, level, sampling).rgb.r, 0.5F, 0.1F);
+    // v grows upward also in footprints: along a slanted one colours vary as along its mirror image if they rise evenly,
+    // but stripes turned by 45 degrees tell it from that.
+    std::vector<float> slanted;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            slanted.push_back((x + y) % 16 < 8 ? 1.0F : 0.0F);  // along v = u + constant
+    write("b.tif", 64, 1, slanted, PictureType::Float);
+    const Texture& b = *open("b.tif", "");
+    const Vec2f middle{(4 + 0.5F) * texel, 1 - 0.5F * texel};
+    const float side = 12 * texel;
+    const TextureFootprint along{{0.7F * texel, -0.7F * texel}, {side, side}},
+        across{{0.7F * texel, 0.7F * texel}, {side, -side}};
+    EXPECT_GT(cache_.lookup(b, middle, along, sampling).rgb.r, 0.9F);
+    EXPECT_LT(cache_.lookup(b, middle, across, sampling).rgb.r, 0.75F);
+    // Impossible footprints are points.
+    const float nan = std::nanf("");
+    EXPECT_GT(cache_.lookup(t, lit, {{nan, 0}, {0, 1}}, sampling).rgb.r, -1);
+    EXPECT_GT(cache_.lookup(t, lit, {{1e30F, 0}, {0, kInfinity}}, sampling).rgb.r, -1);
 }
 
 /// Writes a tiled file with mip levels 64, 32 and 16 texels wide, each level of its own value.
@@ -229,11 +276,13 @@ TEST_F(TextureTest, MipLevelsOfTheFileAreUsedAndConverted) {
     const Texture* raw = open("a.tx", "");
     const Texture* srgb = open("a.tx");  // the same fingerprint must not make them one
     ASSERT_NE(raw, nullptr) << diagnostics_.render();
-    EXPECT_NEAR(cache_.lookup(*raw, {0.3F, 0.3F}, 0, {}).rgb.r, 0.2F, 1e-6F);
-    EXPECT_NEAR(cache_.lookup(*raw, {0.3F, 0.3F}, 1 / 32.0F, {}).rgb.r, 0.4F, 1e-6F);
-    EXPECT_NEAR(cache_.lookup(*raw, {0.3F, 0.3F}, 2, {}).rgb.r, 0.6F, 1e-6F);
-    EXPECT_NEAR(cache_.lookup(*srgb, {0.3F, 0.3F}, 2, {}).rgb.r, decode(Transfer::Srgb, 0.6F),
-                1e-5F);
+    EXPECT_NEAR(cache_.lookup(*raw, {0.3F, 0.3F}, {}, {}).rgb.r, 0.2F, 1e-6F);
+    EXPECT_NEAR(cache_.lookup(*raw, {0.3F, 0.3F}, TextureFootprint::round(1 / 32.0F), {}).rgb.r,
+                0.4F, 1e-6F);
+    EXPECT_NEAR(cache_.lookup(*raw, {0.3F, 0.3F}, TextureFootprint::round(2), {}).rgb.r, 0.6F,
+                1e-6F);
+    EXPECT_NEAR(cache_.lookup(*srgb, {0.3F, 0.3F}, TextureFootprint::round(2), {}).rgb.r,
+                decode(Transfer::Srgb, 0.6F), 1e-5F);
 }
 
 TEST_F(TextureTest, ManyTilesAndAStrip) {
@@ -344,7 +393,7 @@ TEST_F(TextureTest, ThreadsSeeTheSameTexels) {
             total += static_cast<double>(
                 cache_
                     .lookup(t, {static_cast<float>(i) * 0.37F, static_cast<float>(i) * 0.11F},
-                            0.001F * static_cast<float>(i % 40), {})
+                            TextureFootprint::round(0.001F * static_cast<float>(i % 40)), {})
                     .rgb.r);
         return total;
     };

@@ -16,6 +16,15 @@ constexpr std::uint32_t kWalkStream = 0x5bd1e995U;
 /// Roulette never kills nor spares more surely than this.
 constexpr float kLeastSurvival = 0.05F, kMostSurvival = 0.95F;
 
+/// A scattered ray stands for its share of the directions: of n samples with that density each has the solid angle
+/// 1 / (n pdf), which a cone covers. So textures that are seen indirectly are filtered, the less the more samples there
+/// are. Source of the idea: Suykens and Willems 2001, "Path Differentials and Applications".
+void widen(Footprint& footprint, float pdf, int n_samples) {
+    constexpr float kWidest = 1;  // about a hemisphere [rad]
+    const float spread = 2 / std::sqrt(kPi * pdf * static_cast<float>(std::max(1, n_samples)));
+    if (spread > footprint.spread) footprint.spread = std::min(spread, kWidest);
+}
+
 }  // namespace
 
 /// How likely each closure, or passing straight through, is drawn: by what it can carry on.
@@ -117,6 +126,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     last_.samples_only = surface.object->tampers_with_shadows();
     last_.next_segment = segment_ + 1;
     footprint_.width += footprint_.spread * surface.t;
+    if (!delta) widen(footprint_, pdf, scene_.settings.samples);
     ray = {start_of_ray(surface, sample.wi), sample.wi, 0, kInfinity, surface.at.time};
     return true;
 }
@@ -209,6 +219,7 @@ bool Integrator<Tracker>::scatter_below(const Surface& surface, std::size_t draw
     last_.samples_only = at.object->tampers_with_shadows();
     last_.next_segment = segment_ + 1;
     footprint_.width += footprint_.spread * surface.t;
+    widen(footprint_, last_.pdf, scene_.settings.samples);
     ray = {offset_ray_origin(at.at.position, exit->outside), wi, 0, kInfinity, at.at.time};
     return true;
 }

@@ -51,16 +51,17 @@ std::string with_frame(const std::string& name, float frame) {
 ImageTiles open_tiles(const std::string& name, std::string_view color_space,
                       NodeContext& context) {
     ImageTiles out;
-    bool udim = false, tile = false;
+    bool udim = false, tile = false, uvtile = false;
     FileToken token = find_token(name, "udim", udim);
     if (!udim) token = find_token(name, "tile", tile);
+    if (!udim && !tile) token = find_token(name, "uvtile", uvtile);
     const auto open = [&](const std::string& file) -> const Texture* {
         const std::optional<std::string> path = context.find_asset(file);
         if (!path) return nullptr;
         return context.textures().open(*path, color_space, context.diagnostics(),
                                        context.where("filename"));
     };
-    out.tiled = udim || tile;
+    out.tiled = udim || tile || uvtile;
     if (!out.tiled) {
         out.single = open(name);
         return out;
@@ -68,8 +69,9 @@ ImageTiles open_tiles(const std::string& name, std::string_view color_space,
     for (std::int32_t v = 0; v < kTilesUp; ++v)
         for (std::int32_t u = 0; u < kTilesAcross; ++u) {
             const std::int32_t number = kFirstUdim + u + 10 * v;
-            const std::string text =
-                udim ? std::to_string(number) : fmt::format("_u{}_v{}", u + 1, v + 1);
+            const std::string text = udim
+                                         ? std::to_string(number)
+                                         : fmt::format("{}u{}_v{}", tile ? "_" : "", u + 1, v + 1);
             const std::string file = name.substr(0, token.begin) + text + name.substr(token.end);
             if (const Texture* texture = open(file)) out.tiles[number] = texture;
         }

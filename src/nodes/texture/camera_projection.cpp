@@ -92,6 +92,7 @@ Rgba CameraProjection::eval(const ShadePoint& at) const {
     if (!(share > 0)) return offscreen_color.at(at);
     ShadePoint point = at;
     point.uv = uv;
+    point.dp_du = point.dp_dv = {};
     const float depth = -camera_from_world.point(p).z;
     point.uv_width = 0.5F * at.width / (tangent > 0 ? depth * tangent : 1);
     const Rgba picture = projection_color.at(point);

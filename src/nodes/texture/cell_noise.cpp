@@ -58,6 +58,7 @@ Color CellNoise::of_cell(const CellPoint& cell, const ShadePoint& at) const {
         ShadePoint point = at;
         point.uv = {random(11), random(12)};
         point.uv_width = 0;
+        point.dp_du = point.dp_dv = {};
         return palette.at(point);
     }
     if (pattern == Pattern::Cell2) return palette.value * random(11);

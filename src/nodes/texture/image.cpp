@@ -37,7 +37,7 @@ struct Image {
     const TextureCache* cache = nullptr;
     const ImageFiles* files = nullptr;
     TextureSampling sampling;
-    float footprint_scale = 1;  ///< of the hit's footprint, from scales and bias
+    float footprint_scale = 1;  ///< of the hit's footprint, from mipmap_bias
     bool uvcoords_linked = false;
 
     static NodeType describe();
@@ -46,6 +46,7 @@ struct Image {
 
   private:
     [[nodiscard]] Vec2f texture_coordinates(Vec2f uv) const;
+    [[nodiscard]] TextureFootprint footprint(const ShadePoint& at, const UvPoint& uv) const;
     [[nodiscard]] const ImageTiles& tiles_at(const ShadePoint& at) const;
     /// Opens every file that the name may stand for.
     [[nodiscard]] std::shared_ptr<const ImageFiles> open_files(NodeContext& context) const;
@@ -56,7 +57,8 @@ NodeType Image::describe() {
     Describe<Image> d("image", NodeKind::Shader, "A texture from a picture file.");
     d.param("filename", &Image::filename,
             "The file: .tx, EXR, TIFF, PNG, JPEG, HDR and others; looked for along "
-            "texture_searchpath. Tokens: <udim>, <tile>, <frame>, <attr:NAME default:TEXT>.");
+            "texture_searchpath. Tokens: <udim>, <tile>, <uvtile>, <frame>, <attr:NAME "
+            "default:TEXT>.");
     d.param("color_space", &Image::color_space,
             "What the file's colours are; auto: sRGB for integers, ACEScg for floats; empty: no "
             "conversion.");
@@ -100,8 +102,7 @@ TextureWrap texture_wrap(ImageWrap wrap) {
 
 void Image::prepare(NodeContext& context) {
     sampling = {texture_wrap(swrap), texture_wrap(twrap), filter, start_channel, single_channel};
-    footprint_scale =
-        std::fmax(std::abs(sscale), std::abs(tscale)) * std::exp2(static_cast<float>(mipmap_bias));
+    footprint_scale = std::exp2(static_cast<float>(mipmap_bias));
     uvcoords_linked = context.is_linked("uvcoords");
     cache = &context.textures();
     const std::shared_ptr<const ImageFiles> opened = open_files(context);
@@ -177,6 +178,20 @@ Vec2f Image::texture_coordinates(Vec2f uv) const {
     return st;
 }
 
+/// The footprint in the file's coordinates.
+TextureFootprint Image::footprint(const ShadePoint& at, const UvPoint& uv) const {
+    // How coordinates that come from elsewhere run is not known.
+    const TextureFootprint in_uv =
+        uvcoords_linked ? TextureFootprint::round(uv.width) : texture_footprint(at, uv);
+    const auto scaled = [&](Vec2f side) {
+        if (swap_st) std::swap(side.x, side.y);
+        return Vec2f{side.x * sscale * (sflip ? -1.0F : 1.0F),
+                     side.y * tscale * (tflip ? -1.0F : 1.0F)} *
+               footprint_scale;
+    };
+    return {scaled(in_uv.across), scaled(in_uv.along)};
+}
+
 Rgba Image::eval(const ShadePoint& at) const {
     const UvPoint at_uv = uv_of_set(at, uvset);
     Vec2f st = texture_coordinates(at_uv.uv);
@@ -197,7 +212,7 @@ Rgba Image::eval(const ShadePoint& at) const {
     if (texture == nullptr) return missing_texture_color;
     TextureSampling how = sampling;
     if (tiles.tiled) how.wrap_s = how.wrap_t = TextureWrap::Clamp;
-    const Rgba texel = cache->lookup(*texture, st, at_uv.width * footprint_scale, how);
+    const Rgba texel = cache->lookup(*texture, st, footprint(at, at_uv), how);
     return {texel.rgb * multiply + offset, texel.a};
 }
 

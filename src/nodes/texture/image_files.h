@@ -1,7 +1,7 @@
 // The files that one image node may show: a name with tokens stands for several.
 //
 //     <udim>              1001 + floor(u) + 10 floor(v): one file a unit square of texture coordinates
-//     <tile>              the same as _uU_vV, counted from 1
+//     <tile>, <uvtile>    the same as _uU_vV and uU_vV, counted from 1
 //     <frame>, <frame:04> options.frame, as a number or with that many digits
 //     <attr:NAME default:TEXT>, <attr:NAME>   user data of the shape
 //

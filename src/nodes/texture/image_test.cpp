@@ -9,6 +9,7 @@
 #include "io/texture.h"
 #include "nodes/common/node_test_support.h"
 #include "scene/shade_point.h"
+#include "scene/shade_services.h"
 
 namespace lightsieve {
 
@@ -36,8 +37,15 @@ class AssetContext final : public NodeContext {
         return plain.geometry_of(shape, matrix);
     }
 
+    [[nodiscard]] float frame_number() const override { return frame_now; }
+    [[nodiscard]] std::vector<Name> user_texts(Name attribute) override {
+        return attribute == Name("paint") ? paints : std::vector<Name>{};
+    }
+
     TestContext plain;
     TextureCache cache;
+    float frame_now = 1;
+    std::vector<Name> paints;  ///< what shapes carry as "paint"
     std::filesystem::path folder;
     bool ignore_missing = false;
 };
@@ -132,6 +140,98 @@ TEST_F(ImageNodeTest, ColorSpacesApply) {
     const Color green = ColorConversion(kSrgb, kRenderingSpace)(kGreen);
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(color_at(0.75F, 0.75F)[i], green[i], 1e-5F);
+}
+
+/// Shapes of one text each.
+class Painted final : public ShadeServices {
+  public:
+    explicit Painted(const char* text) : text_(text) {}
+    [[nodiscard]] bool user_value(const ShadePoint&, Name, ShaderValue&) const override {
+        return false;
+    }
+    [[nodiscard]] bool user_text(const ShadePoint&, Name name, Name& out) const override {
+        if (name != Name("paint") || text_.empty()) return false;
+        out = text_;
+        return true;
+    }
+    [[nodiscard]] bool uv_set(const ShadePoint&, Name, UvPoint&) const override { return false; }
+    [[nodiscard]] Mat4f world_from_object(const ShadePoint&) const override { return {}; }
+    [[nodiscard]] Mat4f object_from_world(const ShadePoint&) const override { return {}; }
+    [[nodiscard]] bool triangle(const ShadePoint&, Triangle&) const override { return false; }
+    [[nodiscard]] Name shape_name(const ShadePoint&) const override { return {}; }
+    [[nodiscard]] bool trace(const ShadePoint&, const Probe&, ProbeHit&) const override {
+        return false;
+    }
+    [[nodiscard]] std::int32_t n_lights() const override { return 0; }
+
+  private:
+    Name text_;
+};
+
+class ImageTokens : public ImageNodeTest {
+  protected:
+    /// A picture of one texel.
+    void write(const std::string& name, Color c) {
+        PictureSpec spec;
+        spec.width = spec.height = 1;
+        spec.n_channels = 3;
+        write_picture(in_folder(name), spec, std::vector<float>{c.r, c.g, c.b});
+    }
+};
+
+TEST_F(ImageTokens, TilesAreFilesByUnitSquares) {
+    struct Case {
+        const char *token, *first, *last;
+    };
+    for (const Case& c :
+         {Case{"<udim>", "1001", "1013"}, Case{"<UDIM>", "1001", "1013"},
+          Case{"<tile>", "_u1_v1", "_u3_v2"}, Case{"<uvtile>", "u1_v1", "u3_v2"}}) {
+        write(std::string("t") + c.first + ".png", kRed);
+        write(std::string("t") + c.last + ".png", kGreen);
+        node_.set("filename", Name(std::string("t") + c.token + ".png"))
+            .set<Rgba>("missing_texture_color", {{0.25F, 0.5F, 0.75F}, 0.5F});
+        prepare();
+        EXPECT_EQ(color_at(0.5F, 0.5F), kRed) << c.token;
+        EXPECT_EQ(color_at(2.5F, 1.5F), kGreen) << c.token;
+        // Squares without a file, and where there can be none.
+        EXPECT_EQ(at(1.5F, 0.5F).a, 0.5F) << c.token;
+        for (const Vec2f far : {Vec2f{-0.5F, 0.5F}, Vec2f{10.5F, 0}, Vec2f{0, 1e30F}})
+            EXPECT_EQ(at(far.x, far.y).a, 0.5F) << c.token;
+    }
+    EXPECT_EQ(context_.plain.diagnostics().items().size(), 0U);
+}
+
+TEST_F(ImageTokens, FramesAreNumbers) {
+    write("f12.png", kRed);
+    write("f0012.png", kGreen);
+    context_.frame_now = 12.75F;
+    node_.set("filename", Name("f<frame>.png"));
+    prepare();
+    EXPECT_EQ(color_at(0.5F, 0.5F), kRed);
+    node_.set("filename", Name("f<frame:04>.png"));
+    prepare();
+    EXPECT_EQ(color_at(0.5F, 0.5F), kGreen);
+}
+
+TEST_F(ImageTokens, TextsOfShapesChoose) {
+    write("red.png", kRed);
+    write("green.png", kGreen);
+    write("blue.1001.png", kBlue);
+    context_.paints = {Name("red"), Name("blue.<udim>"), Name("lost")};
+    node_.set("filename", Name("<attr:paint default:green>.png"));
+    prepare();
+    const auto seen = [&](const char* text) {
+        const Painted shape(text);
+        ShadePoint point;
+        point.uv = {0.5F, 0.5F};
+        point.services = &shape;
+        return node_.type().eval_value(node_.block(), point).rgb;
+    };
+    EXPECT_EQ(seen("red"), kRed);
+    EXPECT_EQ(seen("blue.<udim>"), kBlue);
+    EXPECT_EQ(seen(""), kGreen) << "a shape without the text";
+    EXPECT_EQ(color_at(0.5F, 0.5F), kGreen) << "no shape at all";
+    EXPECT_EQ(seen("lost"), kBlack) << "a text without a file";
 }
 
 TEST_F(ImageNodeTest, LinkedCoordinatesReplaceTheShapes) {

@@ -41,6 +41,7 @@ Rgba Sky::eval(const ShadePoint& at) const {
     there.uv = dome_uv(
         format, normalize(Vec3f{dot(at.direction, X), dot(at.direction, Y), dot(at.direction, Z)},
                           {0, 0, 1}));
+    there.dp_du = there.dp_dv = {};
     return {color.at(there) * intensity, opaque_alpha ? 1.0F : 0.0F};
 }
 

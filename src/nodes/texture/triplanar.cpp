@@ -61,6 +61,7 @@ Rgba Triplanar::from_side(const ShadePoint& at, Vec3f p, Vec3f n, int axis) cons
     ShadePoint point = at;
     point.uv = {c * uv.x - s * uv.y, s * uv.x + c * uv.y};
     point.uv_width = at.width * std::abs(scale[axis]);
+    point.dp_du = point.dp_dv = {};
     const Lazy<Rgba>& texture = !input_per_axis || axis == 0 ? input
                                 : axis == 1                  ? input_Y
                                                              : input_Z;

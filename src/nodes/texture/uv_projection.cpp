@@ -90,6 +90,7 @@ Rgba UvProjection::eval(const ShadePoint& at) const {
     if ((clamp && !inside) || (by_angle && !covered && clamp)) return default_color;
     ShadePoint point = at;
     point.uv = uv;
+    point.dp_du = point.dp_dv = {};
     // The shape is two units across, a texture one.
     point.uv_width = 0.5F * at.width * std::cbrt(std::abs(local_from_place.determinant3()));
     return projection_color.at(point);
