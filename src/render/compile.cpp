@@ -38,6 +38,7 @@ Compiler::Compiler(const SceneGraph& graph, const RenderOptions& options, Diagno
 
 ScenePtr Compiler::run() {
     read_settings();
+    read_shutter();
     make_lights();
     make_shapes();
     make_background();

@@ -1,11 +1,88 @@
 // Lights, and the choice among them. See compiler.h.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <new>
 
 #include "render/compiler.h"
 #include "render/filtered_light.h"
+#include "render/motion.h"
 
 namespace lightsieve {
+
+namespace {
+
+/// How many still lights stand for one that moves. Each takes its time from the shutter's, and their shadows blend.
+constexpr std::size_t kStops = 16;
+
+/// Makes a node's light as if its matrix were `place` and it were `share` times as bright.
+std::unique_ptr<Light> light_at(const NodeInstance& node, const Mat4f& place, float share,
+                                NodeContext& context) {
+    const NodeType& type = node.type();
+    const std::align_val_t align{type.block_align};
+    const auto free_block = [align](std::byte* p) { ::operator delete[](p, align); };
+    const std::unique_ptr<std::byte[], decltype(free_block)> block(
+        static_cast<std::byte*>(::operator new[](type.block_size, align)), free_block);
+    // Parameter blocks are copied byte by byte (scene/describe.h).
+    std::memcpy(block.get(), node.block(), type.block_size);
+    auto& common = const_cast<LightCommon&>(*type.light_common(block.get()));
+    common.matrix = {&place, 1, 1};
+    common.intensity *= share;
+    return type.make_light(block.get(), context);
+}
+
+}  // namespace
+
+/// The shutter belongs to the camera that the frame is about.
+void Compiler::read_shutter() {
+    const NodeInstance* camera = default_camera();
+    if (camera == nullptr) return;
+    const auto* start = camera->find<float>("shutter_start");
+    const auto* end = camera->find<float>("shutter_end");
+    if (start == nullptr || end == nullptr) return;
+    scene_->settings.shutter_start = *start;
+    scene_->settings.shutter_end = *end;
+}
+
+std::vector<std::uint32_t> Compiler::indices_of_light(NodeRef light) const {
+    const auto found = lights_of_node_.find(light.node);
+    return found == lights_of_node_.end() ? std::vector<std::uint32_t>{} : found->second;
+}
+
+/// Where a light stands while the shutter is open: once if it does not move, else in even steps.
+std::vector<Mat4f> Compiler::light_stops(const NodeInstance& node) {
+    const LightCommon& common = *node.type().light_common(node.block());
+    const std::span<const Mat4f> written(common.matrix.data,
+                                         std::size_t{common.matrix.n} * common.matrix.n_keys);
+    if (written.empty()) return {Mat4f{}};
+    // Impossible matrices are reported where the light is made.
+    const bool finite =
+        std::all_of(written.begin(), written.end(), [](const Mat4f& m) { return m.finite(); });
+    if (written.size() < 2 || !finite) return {written[0]};
+    const auto blend = [](const Mat4f& a, const Mat4f& b, float t) { return lerp(a, b, t); };
+    const std::vector<Mat4f> keys = keys_over_shutter<Mat4f>(
+        written, {common.motion_start, common.motion_end},
+        Shutter{scene_->settings.shutter_start, scene_->settings.shutter_end}, blend);
+    if (std::all_of(keys.begin(), keys.end(), [&](const Mat4f& m) { return m == keys[0]; }))
+        return {keys[0]};
+    const auto at = [&](float time) {
+        const float k = time * static_cast<float>(keys.size() - 1);
+        const std::size_t i = std::min(static_cast<std::size_t>(k), keys.size() - 2);
+        return blend(keys[i], keys[i + 1], k - static_cast<float>(i));
+    };
+    if (common.camera > 0 || common.transmission > 0) {
+        diagnostics_.warning(Code::ParamPending,
+                             "light \"" + node.name().str() +
+                                 "\" moves and is seen: it stands still in the middle of its way",
+                             node.where("matrix"),
+                             "with `camera 0` and `transmission 0` its light is blurred");
+        return {at(0.5F)};
+    }
+    std::vector<Mat4f> stops;
+    for (std::size_t i = 0; i < kStops; ++i)
+        stops.push_back(at((static_cast<float>(i) + 0.5F) / kStops));
+    return stops;
+}
 
 void Compiler::make_lights() {
     std::set<std::string> groups;
@@ -13,27 +90,19 @@ void Compiler::make_lights() {
     for (const auto& node : graph_.nodes()) {
         if (node->kind() != NodeKind::Light || node->type().make_light == nullptr) continue;
         CompileContext context(*this, node.get(), node->name());
-        SceneLight light;
-        light.light = node->type().make_light(node->block(), context);
-        if (!light.light) continue;
+        const std::vector<Mat4f> stops = light_stops(*node);
         if (const bool* opening = node->find<bool>("portal"); opening != nullptr && *opening) {
-            scene_->portals.push_back(std::move(light.light));
+            if (auto light = light_at(*node, stops[stops.size() / 2], 1, context))
+                scene_->portals.push_back(std::move(light));
             portal = node.get();
             continue;
         }
-        light.common = *node->type().light_common(node->block());
-        add_filters(*node, light);
-        light.name = node->name();
-        light.group = light.common.aov.empty() ? "default" : light.common.aov.str();
-        light.is_skydome = light.light->is_skydome();
-        light.samples_only = !light.common.cast_shadows || light.common.shadow_density != 1 ||
-                             !is_black(light.common.shadow_color);
-        const auto index = static_cast<std::uint32_t>(scene_->lights.size());
-        light_index_[node.get()] = index;
-        if (light.light->infinite()) scene_->infinite_lights.push_back(index);
-        if (light.group != "default") groups.insert(light.group);
-        scene_->lights.push_back(std::move(light));
+        const float share = 1 / static_cast<float>(stops.size());
+        for (const Mat4f& place : stops)
+            add_light(*node, light_at(*node, place, share, context), place);
     }
+    for (const SceneLight& light : scene_->lights)
+        if (light.group != "default") groups.insert(light.group);
     if (portal != nullptr) set_portals(*portal);
     scene_->summary.light_groups.assign(groups.begin(), groups.end());
     std::vector<const Light*> lights;
@@ -41,6 +110,25 @@ void Compiler::make_lights() {
         lights.push_back(light.light.get());
     scene_->light_samplers.push_back(std::make_unique<LightSampler>(lights));
     add_light_geometry();
+}
+
+/// Takes a node's light into the scene; null: it has none.
+void Compiler::add_light(const NodeInstance& node, std::unique_ptr<Light> made,
+                         const Mat4f& place) {
+    if (!made) return;
+    SceneLight light;
+    light.light = std::move(made);
+    light.common = *node.type().light_common(node.block());
+    add_filters(node, place, light);
+    light.name = node.name();
+    light.group = light.common.aov.empty() ? "default" : light.common.aov.str();
+    light.is_skydome = light.light->is_skydome();
+    light.samples_only = !light.common.cast_shadows || light.common.shadow_density != 1 ||
+                         !is_black(light.common.shadow_color);
+    const auto index = static_cast<std::uint32_t>(scene_->lights.size());
+    lights_of_node_[&node].push_back(index);
+    if (light.light->infinite()) scene_->infinite_lights.push_back(index);
+    scene_->lights.push_back(std::move(light));
 }
 
 /// Tells skies where the openings are. `last`: one of them.
@@ -63,7 +151,7 @@ void Compiler::set_portals(const NodeInstance& last) {
 }
 
 /// Puts the light behind the filters that it names.
-void Compiler::add_filters(const NodeInstance& node, SceneLight& light) {
+void Compiler::add_filters(const NodeInstance& node, const Mat4f& place, SceneLight& light) {
     std::vector<std::unique_ptr<LightFilter>> filters;
     for (const NodeRef& ref : light.common.filters.first_key()) {
         if (!ref) continue;
@@ -76,15 +164,15 @@ void Compiler::add_filters(const NodeInstance& node, SceneLight& light) {
             continue;
         }
         CompileContext context(*this, ref.node, ref.node->name());
-        if (auto filter = type.make_light_filter(ref.node->block(), context, light_place(node)))
+        if (auto filter =
+                type.make_light_filter(ref.node->block(), context, light_place(node, place)))
             filters.push_back(std::move(filter));
     }
     if (!filters.empty())
         light.light = std::make_unique<FilteredLight>(std::move(light.light), std::move(filters));
 }
 
-LightPlace Compiler::light_place(const NodeInstance& node) {
-    const LightCommon& common = *node.type().light_common(node.block());
+LightPlace Compiler::light_place(const NodeInstance& node, const Mat4f& place) {
     LightPlace out;
     const auto first = [&](const char* param, Vec3f fallback) {
         const auto* values = node.find<Array<Vec3f>>(param);
@@ -92,7 +180,7 @@ LightPlace Compiler::light_place(const NodeInstance& node) {
     };
     out.world_from_light = Mat4f::look_at(first("position", {}), first("look_at", {0, 0, -1}),
                                           first("up", {0, 1, 0}));
-    if (!common.matrix.empty()) out.world_from_light = out.world_from_light * common.matrix[0];
+    out.world_from_light = out.world_from_light * place;
     out.light_from_world = out.world_from_light.inverse();
     constexpr float kWidest = 179;  // tangents are tame below it [deg]
     if (const auto* cone = node.find<float>("cone_angle"); cone != nullptr)

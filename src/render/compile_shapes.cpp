@@ -54,15 +54,6 @@ std::vector<Mat4f> compose(const std::vector<Mat4f>& inner, const std::vector<Ma
 }  // namespace
 
 void Compiler::make_shapes() {
-    // The shutter belongs to the camera that the frame is about.
-    if (const NodeInstance* camera = default_camera(); camera != nullptr) {
-        const auto* start = camera->find<float>("shutter_start");
-        const auto* end = camera->find<float>("shutter_end");
-        if (start != nullptr && end != nullptr) {
-            scene_->settings.shutter_start = *start;
-            scene_->settings.shutter_end = *end;
-        }
-    }
     for (const auto& node : graph_.nodes())
         if (node->kind() == NodeKind::Shape && node->type().shape_common != nullptr)
             place_shape(*node);
@@ -259,8 +250,8 @@ const LightSampler* Compiler::lights_of(const NodeInstance& node) {
     if (!common.use_light_group) return scene_->light_samplers[0].get();
     std::vector<std::uint32_t> subset;
     for (const NodeRef& ref : common.light_group.first_key())
-        if (const auto found = light_index_.find(ref.node); found != light_index_.end())
-            subset.push_back(found->second);
+        for (const std::uint32_t light : indices_of_light(ref))
+            subset.push_back(light);
     std::sort(subset.begin(), subset.end());
     subset.erase(std::unique(subset.begin(), subset.end()), subset.end());
     const LightSampler*& sampler = samplers_by_group_[subset];
@@ -279,8 +270,8 @@ std::vector<bool> Compiler::shadow_lights_of(const NodeInstance& node) {
     if (!common.use_shadow_group) return {};
     std::vector<bool> out(scene_->lights.size(), false);
     for (const NodeRef& ref : common.shadow_group.first_key())
-        if (const auto found = light_index_.find(ref.node); found != light_index_.end())
-            out[found->second] = true;
+        for (const std::uint32_t light : indices_of_light(ref))
+            out[light] = true;
     if (std::all_of(out.begin(), out.end(), [](bool casts) { return casts; })) return {};
     // What hides such a light from light samples is not what hides it from rays that would meet it.
     for (std::size_t i = 0; i < out.size(); ++i)

@@ -94,8 +94,13 @@ class Compiler {
     // compile_lights.cpp
     void make_lights();
     void set_portals(const NodeInstance& last);
-    void add_filters(const NodeInstance& node, SceneLight& light);
-    [[nodiscard]] static LightPlace light_place(const NodeInstance& node);
+    void read_shutter();
+    void add_light(const NodeInstance& node, std::unique_ptr<Light> light, const Mat4f& place);
+    [[nodiscard]] std::vector<Mat4f> light_stops(const NodeInstance& node);
+    /// The lights of the scene that a node of the file stands for.
+    [[nodiscard]] std::vector<std::uint32_t> indices_of_light(NodeRef light) const;
+    void add_filters(const NodeInstance& node, const Mat4f& place, SceneLight& light);
+    [[nodiscard]] static LightPlace light_place(const NodeInstance& node, const Mat4f& place);
     void add_light_geometry();
 
     // compile_events.cpp
@@ -127,7 +132,7 @@ class Compiler {
         prepared_;  ///< the first program of each node
     std::set<const NodeInstance*> failed_shaders_;
     std::map<const NodeInstance*, const ShapeGeometry*> geometry_by_node_;
-    std::map<const NodeInstance*, std::uint32_t> light_index_;
+    std::map<const NodeInstance*, std::vector<std::uint32_t>> lights_of_node_;
     std::map<std::vector<std::uint32_t>, const LightSampler*> samplers_by_group_;
     std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
     std::map<Event, std::uint32_t> event_index_;

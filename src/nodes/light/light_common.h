@@ -4,7 +4,7 @@
 // does not depend on its size: I is its radiant intensity along the normal, so an area has the radiance I / area.
 // Without, I is the radiance itself. Bad numbers are errors at their place in the scene; a light without area is a
 // warning and black.
-// Left out, with a warning where used: motion (the first key holds).
+// The first matrix holds: for a light that moves the renderer makes several, each where it stands at a time.
 #pragma once
 
 #include <array>
@@ -162,15 +162,7 @@ inline std::optional<Emission> make_emission(const LightCommon& light, NodeConte
 /// The placement of a light, or nothing with an error if it holds impossible numbers.
 inline std::optional<Mat4f> world_from_light(const LightCommon& light, NodeContext& context) {
     if (light.matrix.empty()) return Mat4f{};
-    const std::size_t n_keys = std::size_t{light.matrix.n} * light.matrix.n_keys;
     const Mat4f first = light.matrix[0];
-    for (std::size_t i = 1; i < n_keys; ++i) {
-        if (light.matrix[i] == first) continue;
-        context.diagnostics().warning(
-            Code::ParamPending, "light \"" + context.node_name().str() + "\" moves",
-            context.where("matrix"), "moving lights are not supported yet; the first key is used");
-        break;
-    }
     if (!first.finite())
         return light_detail::refuse(
             context, "matrix", "the matrix of \"" + context.node_name().str() + "\" is not finite",

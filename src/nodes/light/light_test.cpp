@@ -242,18 +242,6 @@ TEST(AnyLight, IntensityBoundsWhatIsSeenFromAfar) {
     }
 }
 
-TEST(AnyLight, MotionIsAWarning) {
-    Bench b(node_quad_light());
-    b.node.set_array<Mat4f>("matrix", {Mat4f{}, Mat4f::translation({1, 0, 0})}, 2);
-    b.make();
-    ASSERT_NE(b.light, nullptr);
-    EXPECT_EQ(b.context->diagnostics().n_warnings(), 1U);
-    Bench still(node_quad_light());
-    still.node.set_array<Mat4f>("matrix", {Mat4f{}, Mat4f{}}, 2);
-    still.make();
-    EXPECT_EQ(still.context->diagnostics().n_warnings(), 0U);
-}
-
 // ---- disk_light
 
 TEST(DiskLight, AgreesWithItsClosedForms) {
