@@ -91,11 +91,10 @@ Color ComplexIor::eval(const ShadePoint& at) const {
     const float cosine = unit(std::abs(dot(at.normal, at.wo)));
     if (const auto metal = constants_of(material))
         return fresnel_conductor(cosine, metal->n, metal->k);
-    if (mode == ControlMode::Physical) {
-        const auto sane = [](Vec3f v) { return clamp(Color{v.x, v.y, v.z}, 0, 100); };
-        return fresnel_conductor(cosine, sane(n), sane(k));
-    }
-    const ConductorReflect metal = ConductorReflect::from_artistic({}, reflectivity, edgetint);
+    const ConductorReflect metal =
+        mode == ControlMode::Physical
+            ? ConductorReflect({}, {n.x, n.y, n.z}, {k.x, k.y, k.z})
+            : ConductorReflect::from_artistic({}, reflectivity, edgetint);
     return fresnel_conductor(cosine, metal.n, metal.k);
 }
 

@@ -26,16 +26,14 @@ struct ThinFilmColor {
     [[nodiscard]] Color eval(const ShadePoint& at) const {
         constexpr float kThickest = 1e5F, kLeastIor = 1, kMostIor = 4;
         const float outside = std::clamp(positive(ior_medium), kLeastIor, kMostIor);
-        const auto relative = [&](float ior) {
-            return std::clamp(positive(ior), kLeastIor, kMostIor) / outside;
-        };
         ThinFilm film;
         // Waves are shorter in a medium: the film counts for as much more.
         film.thickness = std::clamp(
-            positive(std::lerp(thickness_min, thickness_max, unit(thickness))) * outside, 0.0F,
+            positive(std::lerp(thickness_min, thickness_max, unit(thickness)) * outside), 0.0F,
             kThickest);
-        film.ior = relative(ior_film);
-        film.n = Color::grey(relative(ior_internal));
+        // Films that are thinner than what surrounds them, as air in glass, are taken as none.
+        film.ior = std::clamp(positive(ior_film) / outside, kLeastIor, kMostIor);
+        film.n = Color::grey(std::clamp(positive(ior_internal), kLeastIor, kMostIor) / outside);
         film.k = kBlack;
         return film.reflectance(unit(std::abs(dot(at.normal, at.wo))));
     }
