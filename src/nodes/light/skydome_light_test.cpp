@@ -66,6 +66,33 @@ TEST(SkydomeLight, PictureIsSampledByBrightness) {
     EXPECT_LT(black, 100);
 }
 
+TEST(SkydomeLight, TheSunIsFoundThoughItIsSmallerThanACell) {
+    Bench b(node_skydome_light());
+    // A sun of a quarter degree that gives three times the sky's light; the shader shows it wider where it is asked for means.
+    const Vec3f sun = normalize(Vec3f{1, 2, 0.5F});
+    const float radius = deg_to_rad(0.25F), sun_light = 3;
+    b.context->shader = [=](const ShadePoint& at) {
+        const float r = radius + 2 * kPi * at.uv_width;
+        const float away = length(at.direction - sun);
+        const Color sky = at.direction.y < 0 ? kBlack : Color::grey(1 / (2 * kPi));
+        return away < r ? sky + Color::grey(sun_light / (kPi * r * r)) : sky;
+    };
+    b.node.set("resolution", 300);
+    b.make();
+    double sum = 0, squares = 0;
+    constexpr std::uint32_t kSamples = 1U << 14U;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        const LightSample s = b.light->sample({}, sobol(i));
+        const double value = static_cast<double>(s.radiance.r / s.pdf);
+        sum += value;
+        squares += value * value;
+    }
+    const double mean = sum / kSamples, deviation = std::sqrt(squares / kSamples - mean * mean);
+    EXPECT_NEAR(mean, 4, 0.05);
+    EXPECT_LT(deviation / mean, 0.8);
+    expect_strategies_agree(*b.light, {});
+}
+
 TEST(SkydomeLight, DetailsBetweenTheSamplesOfTheTableAreNotLost) {
     Bench b(node_skydome_light());
     // A sun much smaller than a cell, somewhere the table does not look.
