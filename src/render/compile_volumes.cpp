@@ -48,6 +48,9 @@ bool Compiler::add_volume(const NodeInstance& node, const NodeInstance& source,
         diagnostics_.warning(Code::ParamPending, "shadow_group has no effect on volumes yet",
                              node.where("use_shadow_group"),
                              "the volume casts shadows in the light of every light");
+    if (!object.self_shadows)
+        diagnostics_.warning(Code::ParamPending, "self_shadows off has no effect on volumes yet",
+                             node.where("self_shadows"), "the volume casts shadows on itself");
     SceneVolume volume;
     volume.object = std::move(object);
     check_channels(source, volume);

@@ -83,8 +83,8 @@ Vec3f RoundCorners::probe(const ShadePoint& at, Vec3f n, float reach, std::uint3
 }
 
 Vec3f RoundCorners::eval(const ShadePoint& at) const {
-    const Vec3f n = outward_normal(at, normal);
-    if (at.services == nullptr || samples < 1 || !(radius > 0)) return n;
+    const Vec3f n = outward_normal(at, {}), linked = outward_normal(at, normal);
+    if (at.services == nullptr || samples < 1 || !(radius > 0)) return linked;
     float reach = radius;
     if (object_space)
         reach *= std::cbrt(std::abs(at.services->world_from_object(at).determinant3()));
@@ -94,7 +94,8 @@ Vec3f RoundCorners::eval(const ShadePoint& at) const {
     Vec3f sum;
     for (std::uint32_t i = 0; i < n_side * n_side; ++i)
         sum += probe(at, n, reach, i, n_side);
-    return normalize(sum, n);
+    // What the linked normal leans away from the surface's own comes on top of the rounding.
+    return normalize(normalize(sum, n) + (linked - n), linked);
 }
 
 }  // namespace

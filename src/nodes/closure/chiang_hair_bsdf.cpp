@@ -42,7 +42,7 @@ struct ChiangHair : ScatterCommon {
                 "Absorption inside of the fibre, per radius.");
         d.param("curve_direction", &C::curve_direction,
                 "Direction of the fibre, world space; acts when linked.");
-        describe_scatter(d);
+        describe_scatter(d, false);
         return d.done();
     }
 

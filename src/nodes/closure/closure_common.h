@@ -31,10 +31,15 @@ struct ScatterCommon {
     }
 };
 
+/// normal_acts  false for closures that go by other directions than the surface's
 template <class T>
-void describe_scatter(Describe<T>& d) {
+void describe_scatter(Describe<T>& d, bool normal_acts = true) {
     d.param("weight", &T::weight, "Factor on all that the closure does.").range(0, 1);
-    d.param("normal", &T::normal, "Normal, world space; acts when linked.");
+    if (normal_acts)
+        d.param("normal", &T::normal, "Normal, world space; acts when linked.");
+    else
+        d.param("normal", &T::normal, "Has no effect: this closure does not go by the normal.")
+            .ignored();
     d.param("label", &T::label, "Joins the closure's events, for light path expressions.");
 }
 

@@ -35,7 +35,17 @@ NodeType MeshLight::describe() {
                           "areas), or I without normalize; I = color * intensity * 2^exposure.");
     d.param("mesh", &MeshLight::mesh, "The polymesh; its own matrix places the light.");
     describe_light_common(d);
-    return d.done();
+    NodeType type = d.done();
+    for (ParamInfo& param : type.params) {
+        if (param.name == Name("matrix"))
+            param.doc = "Has no effect: the mesh's own matrix places the light.";
+        else if (param.name == Name("motion_start") || param.name == Name("motion_end"))
+            param.doc = "Has no effect, as `matrix`.";
+        else
+            continue;
+        param.ignored = true;
+    }
+    return type;
 }
 
 std::unique_ptr<Light> MeshLight::make_light(NodeContext& context) const {

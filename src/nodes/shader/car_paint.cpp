@@ -8,6 +8,7 @@
 
 #include "bsdf/closure.h"
 #include "nodes/shader/layering.h"
+#include "nodes/texture/coord_space.h"
 #include "scene/describe.h"
 #include "scene/node_context.h"
 
@@ -15,8 +16,6 @@ namespace lightsieve {
 namespace {
 
 enum Lobes : int { kDiffuse, kSpecular, kFlakes, kCoat };
-enum class FlakeSpace : std::int32_t { World, Object, Pref, Uv };
-
 /// Flakes are added up to this many layers; each needs a frame of its own in the closure set.
 constexpr std::int32_t kMaxFlakeLayers = 3;
 
@@ -33,7 +32,7 @@ struct CarPaint {
           flake_density = 0;
     std::int32_t flake_layers = 1;
     float flake_normal_randomize = 0.5F;
-    FlakeSpace flake_coord_space = FlakeSpace::Pref;
+    CoordSpace flake_coord_space = CoordSpace::Pref;
     Name pref_name{"Pref"};
     float coat = 1;
     Color coat_color{1, 1, 1};
@@ -87,9 +86,10 @@ void CarPaint::add_coat(const ShadePoint& at, ClosureSet& out, Color& left) cons
 void CarPaint::add_flakes(const ShadePoint& at, ClosureSet& out, Color& left) const {
     const float density = unit(flake_density);
     if (!(density > 0) || !(flake_scale > 0)) return;
-    const Vec3f place =
-        (flake_coord_space == FlakeSpace::Uv ? Vec3f{at.uv.x, at.uv.y, 0} : at.position) *
-        (1 / flake_scale);
+    SolidPlace space;
+    space.coord_space = flake_coord_space;
+    space.pref_name = pref_name;
+    const Vec3f place = space.place(at) * (1 / flake_scale);
     const std::int32_t layers = std::clamp(flake_layers, 0, kMaxFlakeLayers);
     for (std::int32_t layer = 0; layer < layers; ++layer) {
         const CellRandom random(place, static_cast<std::uint32_t>(layer));
@@ -127,13 +127,6 @@ void CarPaint::eval(const ShadePoint& at, ClosureSet& out) const {
 
 void CarPaint::prepare(NodeContext& context) {
     if (!context.is_linked("coat_normal")) coat_normal = {};
-    const bool on_object =
-        flake_coord_space == FlakeSpace::Object || flake_coord_space == FlakeSpace::Pref;
-    if (flake_density > 0 && on_object)
-        context.diagnostics().warning(
-            Code::ParamPending, "flakes that stick to the object are not supported yet",
-            context.where("flake_coord_space"),
-            "they lie in the world; with flake_coord_space \"uv\" they move with the surface");
 }
 
 using C = CarPaint;
@@ -189,8 +182,7 @@ void describe_flakes(Describe<C>& d) {
         .range(0, 1);
     d.param("flake_coord_space", &C::flake_coord_space, "In which space the flakes lie.")
         .names({"world", "object", "Pref", "uv"});
-    d.param("pref_name", &C::pref_name, "User data with a reference position; not read yet.")
-        .ignored();
+    d.param("pref_name", &C::pref_name, "User data with the points at rest, for Pref.");
 }
 
 NodeType CarPaint::describe() {

@@ -68,18 +68,5 @@ TEST(CarPaint, NoFlakesByDefault) {
     EXPECT_EQ(flakes_at(tiny, {1, 2, 3}).n, 1) << "cells beyond all numbers are one";
 }
 
-TEST(CarPaint, SaysThatFlakesDoNotStickToTheObject) {
-    TestNode node(node_car_paint());
-    TestContext context;
-    node.type().prepare(node.block(), context);
-    EXPECT_EQ(context.count(Code::ParamPending), 0U);
-    node.set("flake_density", 0.5F);
-    node.type().prepare(node.block(), context);
-    EXPECT_EQ(context.count(Code::ParamPending), 1U);
-    node.set_enum("flake_coord_space", 3);
-    node.type().prepare(node.block(), context);
-    EXPECT_EQ(context.count(Code::ParamPending), 1U);
-}
-
 }  // namespace
 }  // namespace lightsieve

@@ -11,13 +11,18 @@ constexpr std::size_t kBeside = 20;
 
 struct Passthrough {
     ShaderRef passthrough;
-    std::array<Lazy<Color>, kBeside> eval_beside;
+    std::array<ShaderRef, kBeside> eval_beside;
     Vec3f normal;
 
     static NodeType describe();
     void eval(const ShadePoint& at, ClosureSet& out) const {
-        for (const Lazy<Color>& beside : eval_beside)
-            if (beside.linked()) (void)beside.at(at);
+        // What they look like goes nowhere; what they write stays.
+        ClosureSet unseen;
+        for (const ShaderRef& beside : eval_beside) {
+            if (!beside) continue;
+            unseen.begin(at.wo, Frame::from_z_x(at.normal, at.tangent));
+            beside.closures(at, unseen);
+        }
         passthrough.closures(at, out);
     }
 };
@@ -29,7 +34,7 @@ NodeType Passthrough::describe() {
     for (std::size_t i = 0; i < kBeside; ++i)
         d.part(
             "eval" + std::to_string(i + 1),
-            [=](Passthrough& p) -> Lazy<Color>& { return p.eval_beside[i]; },
+            [=](Passthrough& p) -> ShaderRef& { return p.eval_beside[i]; },
             "Evaluated for what it writes.");
     d.param("normal", &Passthrough::normal, "Evaluated for what it writes.").ignored();
     return d.done();

@@ -24,7 +24,9 @@ struct StandardHair : IdAovs {
 
     static NodeType describe();
 
+    void prepare(NodeContext& context) { prepare_ids(context); }
     void eval(const ShadePoint& at, ClosureSet& out) const {
+        write_ids(at);
         const Color visible = unit(opacity);
         out.transparent(kWhite - visible);
         out.set_indirect({positive(indirect_diffuse), positive(indirect_specular)});

@@ -246,6 +246,7 @@ class Layering {
 };
 
 void StandardSurface::eval(const ShadePoint& at, ClosureSet& out) const {
+    write_ids(at);
     const Color visible = unit(opacity);
     out.transparent(kWhite - visible);
     if (is_black(visible)) return;
@@ -260,6 +261,7 @@ void StandardSurface::eval(const ShadePoint& at, ClosureSet& out) const {
 }
 
 void StandardSurface::prepare(NodeContext& context) {
+    prepare_ids(context);
     if (!context.is_linked("normal")) normal = {};
     if (!context.is_linked("coat_normal")) coat_normal = {};
     if (!context.is_linked("tangent")) tangent = {};

@@ -52,8 +52,7 @@ void describe_shape_common(Describe<T>& d) {
             "The shape casts shadows in the lights of shadow_group only.");
     d.param("shadow_group", &ShapeCommon::shadow_group, "Lights for use_shadow_group.");
     d.param("trace_sets", &ShapeCommon::trace_sets,
-            "Names by which shaders choose what they trace.")
-        .ignored();
+            "Names by which shaders choose what they trace.");
     d.param("transform_type", &ShapeNode::transform_type,
             "How matrices between motion keys are found; here element by element.")
         .names({"linear", "rotate_about_origin", "rotate_about_center"})
