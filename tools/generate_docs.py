@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import pkgutil
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -35,6 +36,18 @@ that there is nothing else to say, the document has one key, `errors`. Errors, w
 are objects with `severity`, `code`, `message`, `hint`, `file`, `line`, `column`, `rendered` and
 `notes`.
 """
+FEATURES_INTRODUCTION = """\
+A parameter is *honoured* if the picture changes as predicted when it does. Each of them has a probe: a small scene in which it
+acts, two values, and what the step between them must do (tests/probes). A parameter that is *ignored with a warning* would
+change the picture and does not yet; setting it is reported. One *without effect* steers Arnold's own sampling, its log or its
+host, or acts only together with another that is reported: tests/probes/tables/unused.toml has the reason for each.
+The parameters themselves are in [nodes.md](nodes.md).
+"""
+STATUSES = {
+    "supported": "honoured",
+    "pending": "ignored with a warning",
+    "ignored": "without effect",
+}
 NOTICE = "<!-- Written by tools/generate_docs.py: change the code, then run `make docs`. -->\n"
 
 
@@ -148,10 +161,43 @@ def nodes_page() -> str:
     return "\n".join([NOTICE, "# Nodes\n", *map(_node_section, known)])
 
 
+def _status_counts(known: list[Node]) -> list[str]:
+    """Nodes, parameters, those of each status, and the honoured part of those that change a picture."""
+    counts = Counter(param.status for node in known for param in node.params)
+    acting = counts["supported"] + counts["pending"]
+    part = f"{100 * counts['supported'] / acting:.1f} %" if acting else ""
+    numbers = [len(known), counts.total(), *(counts[status] for status in STATUSES)]
+    return [*map(str, numbers), part]
+
+
+def features_page() -> str:
+    """How much of every node is honoured, and what is not."""
+    known = sorted(nodes().values(), key=lambda node: (node.kind, node.name))
+    kinds = list(dict.fromkeys(node.kind for node in known))
+    summary = [[kind, *_status_counts([n for n in known if n.kind == kind])] for kind in kinds]
+    summary.append(["all", *_status_counts(known)])
+    columns = ["nodes", "parameters", *STATUSES.values(), "honoured of those that act"]
+    rows = []
+    for node in known:
+        named = [[f"`{p.name}`" for p in node.params if p.status == s] for s in STATUSES]
+        honoured = "all" if len(named[0]) == len(node.params) else str(len(named[0]))
+        rows.append([f"`{node.name}`", node.kind, honoured, *map(", ".join, named[1:])])
+    return "\n".join(
+        [
+            NOTICE,
+            "# What is honoured\n",
+            FEATURES_INTRODUCTION,
+            _table(["kind", *columns], summary),
+            _table(["node", "kind", *STATUSES.values()], rows),
+        ]
+    )
+
+
 PAGES = {
     "docs/cli.md": cli_page,
     "docs/reference/aovs.md": aovs_page,
     "docs/reference/errors.md": errors_page,
+    "docs/reference/features.md": features_page,
     "docs/reference/nodes.md": nodes_page,
 }
 
