@@ -184,6 +184,33 @@ TEST(QuadLight, ColourByTexture) {
     EXPECT_NEAR(b.light->bounds().intensity, 4 * 2.0F / 3, 0.01F);
 }
 
+TEST(QuadLight, SmallBrightSpotsAreFound) {
+    Bench b(node_quad_light());
+    b.context->shader = [](const ShadePoint& at) {
+        const float x = at.uv.x - 0.7F, y = at.uv.y - 0.2F;
+        return Color::grey(x * x + y * y < 0.02F * 0.02F ? 800.0F : 0.1F);
+    };
+    b.node.set("normalize", false);
+    b.make();
+    const Vec3f from{0.3F, 0.2F, -2};
+    double sum = 0, squares = 0;
+    constexpr std::uint32_t kSamples = 1U << 14U;
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        const LightSample s = b.light->sample(from, sobol(i));
+        const double value = static_cast<double>(s.radiance.r * s.wi.z / s.pdf);
+        sum += value;
+        squares += value * value;
+    }
+    const double mean = sum / kSamples;
+    EXPECT_LT(std::sqrt(squares / kSamples - mean * mean) / mean, 1.2);
+    // The spot alone, at (-0.4, -0.6): radiance times area times cosines over the square of the distance.
+    const double r2 = 0.7 * 0.7 + 0.8 * 0.8 + 4;
+    const double spot = 800 * 4 * static_cast<double>(kPi) * 0.02 * 0.02 * 4 / (r2 * r2);
+    EXPECT_NEAR(mean / (spot + 0.1 * 4 * 4 / (r2 * r2)), 1, 0.05);
+    expect_strategies_agree(*b.light, from);
+    expect_directions_follow_density(*b.light, {0, 0, -1.5F}, 5000);
+}
+
 TEST(QuadLight, HostileParameters) {
     const float nan = std::nanf("");
     Bench flat(node_quad_light());

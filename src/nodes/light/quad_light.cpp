@@ -35,12 +35,17 @@ TriangleMesh quad_mesh(const std::array<Vec3f, 4>& p) {
     return mesh;
 }
 
-/// A rectangle, sampled by solid angle. Of one that is focused, the part from which light can come.
+/// Cells along a side of the table of a textured light.
+constexpr std::int32_t kMinResolution = 16, kMaxResolution = 2048;
+
+/// A rectangle, sampled by solid angle. Of one that is focused, the part from which light can come. One with a texture is
+/// sampled half by its brightness, too.
 class RectangleSource final : public Light {
   public:
     /// p  corners whose winding says which side shines: the one from which they run counter-clockwise
+    /// resolution  of the table of a textured light
     RectangleSource(const std::array<Vec3f, 4>& p, const Emission& radiance,
-                    const FlatProfile& profile)
+                    const FlatProfile& profile, std::int32_t resolution)
         : rectangle_(p[0], p[1] - p[0], p[3] - p[0]), radiance_(radiance), profile_(profile) {
         geometry_.data = quad_mesh(p);
         for (const Vec3f corner : p)
@@ -49,6 +54,9 @@ class RectangleSource final : public Light {
         bounds_.cos_spread = 1;
         bounds_.cos_emission = profile.spread.cosine();
         bounds_.intensity = radiance.magnitude() * rectangle_.area() * profile.spread.peak();
+        if (!radiance.is_constant() && profile.spread.is_wide())
+            make_table(
+                static_cast<std::size_t>(std::clamp(resolution, kMinResolution, kMaxResolution)));
     }
 
     [[nodiscard]] LightSample sample(Vec3f from, Vec2f u) const override {
@@ -93,7 +101,7 @@ class RectangleSource final : public Light {
     [[nodiscard]] LightSample sample_of(const Rectangle& rectangle, Vec3f from, Vec2f u) const {
         const RectangleView view(rectangle, from);
         if (!view.visible()) return {};
-        const RectangleView::Sample s = view.sample(u);
+        const RectangleView::Sample s = sample_place(view, u);
         const Vec3f toward = s.position - from;
         const float distance = length(toward);
         const Vec2f uv = profile_.spread.is_wide() ? s.uv : rectangle_.uv_of(s.position);
@@ -111,12 +119,47 @@ class RectangleSource final : public Light {
             if (!(factor > 0)) return {};
             radiance *= factor;
         }
-        return {radiance, view.pdf({position, part_uv})};
+        const float pdf = view.pdf({position, part_uv});
+        return {radiance, picture_ ? 0.5F * (pdf + picture_pdf(from, position, uv)) : pdf};
+    }
+
+    /// A place on the light: by its looks from there, or half of the time by its brightness.
+    [[nodiscard]] RectangleView::Sample sample_place(const RectangleView& view, Vec2f u) const {
+        if (!picture_) return view.sample(u);
+        if (u.x < 0.5F) return view.sample({2 * u.x, u.y});
+        const Vec2f uv = picture_->sample({2 * u.x - 1, u.y}).uv;
+        return {rectangle_.corner() + rectangle_.axis_x() * (uv.x * rectangle_.width()) +
+                    rectangle_.axis_y() * (uv.y * rectangle_.height()),
+                uv};
+    }
+    /// Density of the places that are drawn by brightness, per solid angle.
+    [[nodiscard]] float picture_pdf(Vec3f from, Vec3f position, Vec2f uv) const {
+        const Vec3f back = from - position;
+        const float r2 = length_squared(back), facing = dot(rectangle_.normal(), back);
+        const float pdf = picture_->pdf(uv) / rectangle_.area() * (r2 * std::sqrt(r2) / facing);
+        return facing > 0 && std::isfinite(pdf) ? pdf : 0;
+    }
+    void make_table(std::size_t n) {
+        std::vector<float> cells(n * n);
+        double sum = 0;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const Vec2f uv{(static_cast<float>(i % n) + 0.5F) / static_cast<float>(n),
+                           (static_cast<float>(i / n) + 0.5F) / static_cast<float>(n)};
+            const Vec3f on = rectangle_.corner() +
+                             rectangle_.axis_x() * (uv.x * rectangle_.width()) +
+                             rectangle_.axis_y() * (uv.y * rectangle_.height());
+            const float value = Emission::magnitude(radiance_.at(on, rectangle_.normal(), uv)) *
+                                profile_.outline.at(uv);
+            cells[i] = std::isfinite(value) ? value : 0;
+            sum += static_cast<double>(cells[i]);
+        }
+        if (sum > 0) picture_.emplace(cells, n, n);
     }
 
     Rectangle rectangle_;
     Emission radiance_;
     FlatProfile profile_;
+    std::optional<Distribution2D> picture_;  ///< brightness over the light, if it has a texture
     ShapeGeometry geometry_;
     LightBounds bounds_;
 };
@@ -136,8 +179,8 @@ NodeType QuadLight::describe() {
             "Four corners in light space; light leaves on the side from which they run "
             "counter-clockwise.");
     d.param("resolution", &QuadLight::resolution,
-            "Size of Arnold's table for sampling textured lights.")
-        .ignored();
+            "Cells along a side of the table by which a textured light is sampled.")
+        .range(kMinResolution, kMaxResolution);
     d.param("spread", &QuadLight::spread,
             "1: light leaves to all sides; less: focused along the normal, up to spread * 90 "
             "degrees from it. The light's power stays the same.")
@@ -193,7 +236,7 @@ std::unique_ptr<Light> QuadLight::make_light(NodeContext& context) const {
     }
     if (!is_rectangle(p)) return triangles;
     return std::make_unique<RectangleSource>(p, shown.scaled(by_area ? 1 / triangles->area() : 1),
-                                             profile);
+                                             profile, resolution);
 }
 
 }  // namespace
