@@ -70,6 +70,8 @@ def options(width: int, height: int, samples: int, depth: int) -> str:
         height: of the picture [pixels].
         samples: AA_samples; the square is samples a pixel.
         depth: every GI depth.
+
+    A camera sample does not split: samples a second are comparable with renderers that do not split theirs.
     """
     return (
         node(
@@ -83,6 +85,13 @@ def options(width: int, height: int, samples: int, depth: int) -> str:
             GI_transmission_depth=depth,
             GI_volume_depth=depth,
             GI_total_depth=depth,
+            **dict.fromkeys(
+                (
+                    f"GI_{kind}_samples"
+                    for kind in ("diffuse", "specular", "transmission", "sss", "volume")
+                ),
+                1,
+            ),
             indirect_sample_clamp=1e30,
             outputs=Array("STRING", 1, ['"RGBA RGBA filter driver"']),
         )

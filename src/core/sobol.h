@@ -43,6 +43,17 @@ class Sampler {
     /// The points of four neighbouring pairs, `pair` to `pair + 3`: the same as of at2, for the price of about one.
     [[nodiscard]] std::array<Vec2f, 4> at2x4(std::uint32_t pair) const;
 
+    /// The points of part `part` of `n` of this sample, where it splits: as well spread over all parts of all samples as
+    /// samples are.
+    ///
+    /// family  parts of different families have nothing to do with each other
+    [[nodiscard]] Sampler split(std::uint32_t family, std::uint32_t part, std::uint32_t n) const {
+        Sampler out = *this;
+        out.pixel_ = hash_combine(hash_combine(pixel_, 0x2545f491U + family), n);
+        out.index_ = index_ * n + part;
+        return out;
+    }
+
     /// Independent uniform numbers for choices that need no stratification (merging terms), apart from the points.
     [[nodiscard]] float random(std::uint32_t stream) const {
         return unit_float(hash_combine(hash_combine(pixel_ ^ 0xa511e9b3U, index_), stream));

@@ -338,7 +338,7 @@ TEST(Albedo, ProbesAreNotClamped) {
 
 TEST(Albedo, ExposureBrightensLightAndNoAlbedo) {
     const auto with = [](std::string_view camera) {
-        std::string text = plane_scene(kPlaneShader);
+        std::string text = plane_scene(kPlaneShader, " low_light_threshold 0");
         text.insert(text.find(" position "), camera);
         return render(text, in_memory({"diffuse", "diffuse_albedo", "albedo"}));
     };

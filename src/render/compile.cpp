@@ -122,6 +122,12 @@ void Compiler::read_settings() {
                depth_limit(option<std::int32_t>("GI_transmission_depth", 2)),
                depth_limit(option<std::int32_t>("GI_volume_depth", 0)),
                depth_limit(option<std::int32_t>("GI_total_depth", 10))};
+    const auto rays = [&](std::string_view name) {
+        return squared_samples(option<std::int32_t>(name, 2));
+    };
+    s.gi_samples = {rays("GI_diffuse_samples"), rays("GI_specular_samples"),
+                    rays("GI_transmission_samples"), rays("GI_sss_samples"),
+                    rays("GI_volume_samples")};
     s.auto_transparency_depth = option<std::int32_t>("auto_transparency_depth", 10);
     s.sample_clamp = option("AA_sample_clamp", kInfinity);
     s.indirect_clamp = option("indirect_sample_clamp", 10.0F);

@@ -125,6 +125,10 @@ void Compiler::add_light(const NodeInstance& node, std::unique_ptr<Light> made,
     light.is_skydome = light.light->is_skydome();
     light.samples_only = !light.common.cast_shadows || light.common.shadow_density != 1 ||
                          !is_black(light.common.shadow_color);
+    light.n_samples = std::max(1, squared_samples(light.common.samples));
+    light.n_volume_samples = std::max(1, squared_samples(light.common.volume_samples));
+    scene_->lights_can_be_met |=
+        !light.light->infinite() || !light.light->sample({}, {0.5F, 0.5F}).delta;
     const auto index = static_cast<std::uint32_t>(scene_->lights.size());
     lights_of_node_[&node].push_back(index);
     if (light.light->infinite()) scene_->infinite_lights.push_back(index);
@@ -143,9 +147,7 @@ void Compiler::set_portals(const NodeInstance& last) {
     }
     if (sky) return;
     diagnostics_.warning(Code::InvalidValue,
-                         "no skydome shines through portal "
-                         " + last.name().str() + "
-                         "",
+                         "no skydome shines through portal \"" + last.name().str() + '"',
                          last.where("portal"),
                          "a portal is no light itself: add a skydome_light, or turn `portal` off");
 }

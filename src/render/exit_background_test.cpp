@@ -13,7 +13,7 @@ std::string under_a_lid(const std::string& shader, const std::string& options = 
     return frame_text(8, 8, 2, from_above(1, 1), " background haze\n" + options) +
            node("flat", "haze", " color 0.5 1 2") +
            node("standard_surface", "ground", " base 1\n base_color 0.5 0.5 0.5\n" + shader) +
-           floor("plane", 0, 3, "ground") + lambert("black", 0) + floor("lid", 2, 50, "black");
+           floor("plane", 0, 3, "ground") + lambert("black", 0) + floor("lid", 2, 1e5F, "black");
 }
 
 TEST(ExitToBackground, StandsInForWhatARayPastItsLimitWouldMeet) {

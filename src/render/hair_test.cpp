@@ -110,7 +110,11 @@ TEST(Hair, WhiteFurnace) {
                 render(from_the_front(8, 8, kNoBounces) +
                        node("standard_hair", "hair", kWhiteHair + more + " extra_depth 0\n") +
                        fibre("hair", 1.5F, kind.params) + kSky);
-            EXPECT_TRUE(check_mean(picture, "RGBA", kWhite, 3e-3)) << kind.name << more;
+            // The lobes along a rough, tilted fibre are cut off at its poles.
+            EXPECT_TRUE(check_mean(
+                picture, "RGBA", kWhite,
+                std::string_view(more).find("roughness") != std::string_view::npos ? 1e-2 : 3e-3))
+                << kind.name << more;
         }
 }
 

@@ -14,6 +14,7 @@
 #include "bsdf/dispersion.h"
 #include "core/sobol.h"
 #include "render/film.h"
+#include "render/gi_kind.h"
 #include "render/interiors.h"
 #include "render/media_path.h"
 #include "render/path_terms.h"
@@ -46,17 +47,25 @@ class Integrator {
                const Sampler& sampler, SampleBuffer& out);
 
     TraceCounts counts;
-    /// What shaders see of the sample; its pixel and place in it are set before `trace`, the rest by it.
+    /// What shaders see of the sample: its pixel and place in it, set before `trace`.
     RayState state;
     [[nodiscard]] Tracker& tracker() { return tracker_; }
 
   private:
+    /// Which lights a vertex asks.
+    enum class LightPlan : std::uint8_t {
+        Pick,           ///< one, chosen by what it may bring
+        Once,           ///< each, once
+        Often,          ///< each, as often as its `samples` say
+        OftenInVolume,  ///< each, as often as its `volume_samples` say
+    };
     /// The vertex that the current ray left: what MIS must know when the ray meets a light.
     struct LastVertex {
         Vec3f position;
         Vec3f pick_normal;  ///< as given to the light sampler
         const LightSampler* lights = nullptr;
-        float pdf = 0;      ///< of the direction, mixture of all lobes, per solid angle
+        LightPlan plan = LightPlan::Pick;  ///< which lights were asked there
+        float pdf = 0;      ///< of the direction, all lobes and rays together, per solid angle
         bool delta = true;  ///< the direction could not have come from a light sample
         bool samples_only =
             false;  ///< shadows on the surface are tampered with: rays find no lights
@@ -68,6 +77,10 @@ class Integrator {
         Color
             tinted;  ///< with what transmissive surfaces let through to diffuse light besides; never less than `straight`
     };
+    /// Shadow rays end this much (relative) before a light, so that they do not meet its own shape.
+    static constexpr float kShadowEpsilon = 1e-5F;
+    /// Segments of a path, transparent surfaces included: a guard against geometry that rays cannot leave.
+    static constexpr std::uint32_t kMaxSegments = 1024;
     /// The sampler's pairs of dimensions before the path's own, and of each segment of the path.
     static constexpr std::uint32_t kFirstPair = 4, kPairsPerSegment = 4;
     /// A segment's points.
@@ -86,6 +99,7 @@ class Integrator {
     };
 
     // Steps of `trace`, in order.
+    void follow(Ray ray, const Mat4f& camera_from_world);
     void choose_mask_group();
     void update_state();
     [[nodiscard]] std::uint32_t ray_mask() const;
@@ -124,11 +138,33 @@ class Integrator {
     void add_probes();
     void choose_probabilities();
     void add_light_samples(const Surface& surface);
-    /// Draws the next direction; false if the path ends.
-    bool scatter(const Surface& surface, Ray& ray);
+    /// Goes on straight or by a scatterer, whichever is drawn; false if the path ends.
+    bool go_on(const Surface& surface, Ray& ray);
+    void pass_straight(const Surface& surface, Ray& ray, float probability);
+    /// Draws the next direction among the scatterers, or those of a kind; false if the path ends.
+    bool scatter(const Surface& surface, std::size_t drawn, Ray& ray);
     bool survives_roulette();
+    [[nodiscard]] bool is_worth_a_ray() const;
     /// The same through a subsurface closure: a walk, light at its end, a direction from there.
     bool scatter_below(const Surface& surface, std::size_t drawn, Ray& ray);
+
+    // Splitting (integrator_fan.cpp).
+    /// Which lights the vertex asks: all of them where paths split, if there are few.
+    [[nodiscard]] LightPlan light_plan(const LightSampler& lights, bool in_medium) const;
+    /// How many samples of a light a vertex takes, on average.
+    [[nodiscard]] float light_samples(LightPlan plan, const LightSampler& lights, Vec3f position,
+                                      Vec3f normal, std::uint32_t light) const;
+    void ask_lights(const Surface& surface, LightPlan plan);
+    /// How many rays go on by each kind of scattering, on average.
+    using RayCounts = std::array<float, kGiKinds>;
+    [[nodiscard]] RayCounts choose_ray_counts();
+    [[nodiscard]] bool ends_at_lights(const Channel& channel) const;
+    [[nodiscard]] float volume_rays(const Channel& channel) const;
+    [[nodiscard]] float carried() const;
+    /// Splits the path: puts one aside for each ray that leaves the surface. True if the ray also goes straight on.
+    bool fan_out(const Surface& surface, Ray& ray);
+    void put_aside(const Ray& ray);
+    [[nodiscard]] bool is_enabled(std::size_t scatterer) const;
 
     // Media (integrator_media.cpp).
     /// Through media from where the ray has come to up to `to`.
@@ -153,7 +189,7 @@ class Integrator {
     void add_light_along(const Ray& ray, const AlongRay& part, Vec2f u, Vec2f on_light, int n);
     [[nodiscard]] AlongRay along(const VolumeInterval& interval, float to);
     [[nodiscard]] float share_of_collisions(const Ray& ray, const AlongRay& part, float t,
-                                            std::uint32_t light, float pick) const;
+                                            std::uint32_t light, float asked) const;
 
     // Parts of them.
     [[nodiscard]] std::size_t n_scatterers() const {
@@ -161,8 +197,16 @@ class Integrator {
     }
     /// Weighted albedo of a scatterer.
     [[nodiscard]] Color albedo_of(std::size_t scatterer) const;
-    /// The scatterer that the number chooses, or nothing.
-    [[nodiscard]] std::optional<std::size_t> draw(float u) const;
+    /// The scatterer that the number chooses among all, or among those of a kind; or nothing.
+    ///
+    /// u  below the sum of their probabilities
+    [[nodiscard]] std::optional<std::size_t> draw(float u, std::optional<GiKind> kind = {}) const;
+    /// Asks one light.
+    ///
+    /// samples  how many this vertex takes of it, on average
+    /// coin     for samples of little effect
+    void ask_light(const Surface& surface, std::uint32_t light, float samples, Vec2f u,
+                   float coin);
     /// Moves all shares on through the channels; false if the path ends. factors[c] = f_c / density
     bool advance(std::span<const Color> factors, std::size_t drawn);
     void see_past(std::span<const Color> factors);
@@ -192,7 +236,7 @@ class Integrator {
     [[nodiscard]] float light_factor(const LightCommon& light, RayType type, int n_scatter) const;
     [[nodiscard]] float clamp_factor(Color total, int n_scatter) const;
     [[nodiscard]] float random(std::uint32_t stream) const {
-        return sampler_->random(hash_combine(segment_, stream));
+        return path_.sampler.random(hash_combine(path_.segment, stream));
     }
     /// Black for each channel of the vertex. One array for all: whoever asks next overwrites it.
     [[nodiscard]] std::span<Color> cleared_values() {
@@ -201,39 +245,61 @@ class Integrator {
     }
     [[nodiscard]] bool some_group_is_seen() const;
     /// Whether the camera sees what the ray meets: no event yet, and not nothing left.
-    [[nodiscard]] bool seen() const { return !is_black(passed_); }
+    [[nodiscard]] bool seen() const { return !is_black(path_.passed); }
     /// Colour of the path's wavelength, if a direction at the current vertex makes the path take it; else white.
     [[nodiscard]] Color color_of_wavelength(const Surface& surface, Vec3f wi) const {
         const bool takes =
-            closures_.disperses() && !monochromatic_ && dot(wi, surface.outward) < 0;
+            closures_.disperses() && !path_.monochromatic && dot(wi, surface.outward) < 0;
         return takes ? wavelength_.weight : kWhite;
     }
     /// Whether anybody still asks for light, or for what the camera ray meets.
     [[nodiscard]] bool wanted() const {
         return scene_.plan.wants_beauty || tracker_.live() ||
-               (n_scatter_ == 0 && !out_->first.hit);
+               (path_.n_scatter == 0 && !out_->first.hit);
     }
+
+    /// What a path carries from one vertex to the next: all that is put aside where it splits.
+    struct Path {
+        Sampler sampler{0, 0, 0, 0};
+        PathGroups groups;
+        Interiors interiors;  ///< that the path is inside of
+        LastVertex last;
+        Footprint footprint;
+        Color
+            passed;  ///< what surfaces that the camera sees through have let through; black: it does not see the path's end
+        Color
+            start;  ///< throughput at the camera, which roulette compares with; the path's part of it where it split
+        RayState state;  ///< what shaders see of it
+        std::uint32_t segment = 0;
+        int n_scatter = 0;           ///< scattering events so far
+        int n_transparent = 0;       ///< transparent surfaces passed
+        float siblings = 1;          ///< paths that share what this one stands for, at least 1
+        bool monochromatic = false;  ///< it has taken its wavelength
+        bool exit_pending =
+            false;  ///< the ray just left a surface past a depth limit with exit_to_background
+        bool fans_out =
+            true;  ///< it has come by perfect mirrors only: it splits at the next vertex
+    };
+    /// A path that waits for its turn.
+    struct Fork {
+        Path path;
+        Ray ray;
+        typename Tracker::Saved terms;
+    };
 
     const Scene& scene_;
     Tracker tracker_;
-    PathGroups groups_;
+    Path path_;
+    std::vector<Fork> forks_;  ///< the first n_forks_ wait; the others keep their memory for later
+    std::size_t n_forks_ = 0;
+    Fork before_;            ///< the path as it came to the vertex where it splits
+    PathGroups::Step step_;  ///< of `advance`
     ClosureSet closures_, shadow_closures_;
     std::vector<WrittenAov> written_;  ///< by shaders at the current hit
-    const Sampler* sampler_ = nullptr;
     SampleBuffer* out_ = nullptr;
-    LastVertex last_;
-    Footprint footprint_;
-    Color
-        passed_;  ///< what surfaces that the camera sees through have let through; black: it does not see the path's end
-    Color path_start_;  ///< throughput at the camera, which roulette compares with
-    std::uint32_t segment_ = 0;
     SegmentPoints points_;      ///< of this segment
-    int n_scatter_ = 0;         ///< scattering events so far
-    int n_transparent_ = 0;     ///< transparent surfaces passed
     bool knows_first_ = false;  ///< what data layers show has been decided
     ShadowShown shadow_;        ///< of the current vertex, where it has a shadow_matte
-    bool exit_pending_ =
-        false;  ///< the ray just left a surface past a depth limit with exit_to_background
     bool lights_only_ = false;  ///< no share of the path may meet anything but lights
 
     // Of the current vertex.
@@ -242,18 +308,19 @@ class Integrator {
     std::array<Color, kMaxChannels> values_;  ///< see cleared_values
     /// By scatterer: the closures of the set, then its subsurface closures.
     std::array<std::uint8_t, kMaxChannels> channel_of_;
-    std::array<float, kMaxChannels> probability_;  ///< of drawing each scatterer
-    Interiors interiors_;                          ///< that the path is inside of
-    Wavelength wavelength_;                        ///< that the path takes when it must
-    bool monochromatic_ = false;                   ///< it has taken it
-    MediaPath media_;                              ///< along the current ray
-    float media_t_ = 0;                            ///< how far the ray has come through them
+    /// How many rays each scatterer sends on, on average: where there is one ray, the probability of drawing it.
+    std::array<float, kMaxChannels> probability_;
+    std::array<GiKind, kMaxChannels> kind_of_;  ///< each scatterer's, where the path splits
+    Wavelength wavelength_;                     ///< that the path takes when it must
+    MediaPath media_;                           ///< along the current ray
+    float media_t_ = 0;                         ///< how far the ray has come through them
     /// Of the segment: 0 the first collision; 1 point along the ray and choice of light; 2 point on that light.
     std::array<Vec2f, 4> media_points_;
     /// The atmosphere along the current ray.
     struct Haze {
         Medium medium;
-        float far = 0;  ///< where it ends for rays without end
+        float far = 0;        ///< where it ends for rays without end
+        Color left = kWhite;  ///< of what the ray carries, after all haze so far
     };
     Haze haze_;
     std::uint32_t n_shadow_rays_ = 0;  ///< through media: each draws numbers of its own

@@ -54,16 +54,17 @@ class Equiangular {
 
 /// How much of a light's contribution collisions bring at distance t, the rest being that of points along the ray.
 ///
-/// pick  probability with which a collision there asks the light
+/// asked  how many samples of the light a collision there takes, on average
 template <class Tracker>
 float Integrator<Tracker>::share_of_collisions(const Ray& ray, const AlongRay& part, float t,
-                                               std::uint32_t light, float pick) const {
+                                               std::uint32_t light, float asked) const {
     if (part.collisions == 0) return 0;
     const float by_light = scene_.finite_lights.probability(light);
     if (!(by_light > 0)) return 1;
     const Equiangular points(ray, part.begin, part.end, scene_.lights[light].light->bounds().box);
     const float along = by_light * points.pdf(t);
-    const float colliding = pick * part.collisions * std::exp(-part.collisions * (t - part.begin));
+    const float colliding =
+        asked * part.collisions * std::exp(-part.collisions * (t - part.begin));
     return colliding + along > 0 ? colliding / (colliding + along) : 0;
 }
 
@@ -91,13 +92,15 @@ void Integrator<Tracker>::add_light_along(const Ray& ray, const AlongRay& part, 
     const float phase = PhaseLobe(part.medium.phase).eval(-ray.direction, sample.wi).pdf;
     float weight = 1;
     if (part.collisions > 0) {
+        const LightSampler& lights = *vertex.object->lights;
         const float asked =
-            vertex.object->lights->probability(vertex.at.position, {0, 0, 0}, index);
+            light_samples(light_plan(lights, true), lights, vertex.at.position, {0, 0, 0}, index);
         if (!(asked > 0)) return;  // not in the volume's light group
         weight = 1 - share_of_collisions(ray, part, t, index, asked);
         // Rays that the phase function sends find the light, too.
+        const float rays = volume_rays({part.medium.record, true});
         if (!sample.delta && !light.samples_only)
-            weight *= power_heuristic(asked * sample.pdf, phase);
+            weight *= power_heuristic(asked * sample.pdf, rays * phase);
     }
     Color arriving = visibility(vertex, index, sample).straight;
     if (is_black(arriving)) return;
@@ -113,9 +116,9 @@ void Integrator<Tracker>::add_light_along(const Ray& ray, const AlongRay& part, 
     channels_[0] = {part.medium.record, true};
     n_channels_ = 1;
     deposit_scattered({light.as_light, light.light_event}, [&](std::size_t g, std::size_t) {
-        return groups_[g].key.lights_only
+        return path_.groups[g].key.lights_only
                    ? kBlack
-                   : value * light_factor(light.common, RayType::Volume, n_scatter_ + 1);
+                   : value * light_factor(light.common, RayType::Volume, path_.n_scatter + 1);
     });
 }
 
@@ -148,14 +151,15 @@ auto Integrator<Tracker>::along(const VolumeInterval& interval, float to) -> Alo
 template <class Tracker>
 void Integrator<Tracker>::add_haze(const Ray& ray, float to) {
     const Box3f& bounds = scene_.haze.bounds;
-    haze_ = {{}, std::min(to, length(bounds.center() - ray.origin) + length(bounds.size()))};
+    haze_.medium = {};
+    haze_.far = std::min(to, length(bounds.center() - ray.origin) + length(bounds.size()));
     if (!(haze_.far > media_t_)) return;
     ShadePoint at;
     at.position = ray.origin;
     at.wo = at.normal = at.geometric_normal = -ray.direction;
     at.direction = ray.direction;
     at.time = ray.time;
-    at.ray_type = groups_[0].key.ray_type;
+    at.ray_type = path_.groups[0].key.ray_type;
     closures_.begin_volume(at.wo);
     scene_.atmosphere->closures(at, closures_);
     haze_.medium = mixed(closures_.media());
@@ -164,7 +168,7 @@ void Integrator<Tracker>::add_haze(const Ray& ray, float to) {
     part.medium = haze_.medium;
     part.start = part.begin = media_t_;
     part.end = haze_.far;
-    const int n = n_scatter_ == 0 ? scene_.haze.samples : 1;
+    const int n = path_.n_scatter == 0 ? scene_.haze.samples : 1;
     // One well spread point for each of n parts of the ray; their other numbers are turned against each other.
     for (int i = 0; i < n; ++i) {
         const auto share = static_cast<float>(i) / static_cast<float>(n);
@@ -180,9 +184,10 @@ void Integrator<Tracker>::fade_in_haze(float from, float to) {
     if (is_black(haze_.medium.extinction)) return;
     const Color left =
         transmittance(haze_.medium.extinction, std::max(std::min(to, haze_.far) - from, 0.0F));
-    groups_.scale(left);
+    path_.groups.scale(left);
     tracker_.scale(left);
-    passed_ *= left;
+    path_.passed *= left;
+    haze_.left *= left;
 }
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.

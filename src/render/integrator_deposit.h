@@ -9,12 +9,12 @@ template <class Tracker>
 template <class Value>
 void Integrator<Tracker>::deposit(Terminal terminal, const Value& value) {
     Color total;
-    const std::span<const PathGroup> groups = groups_.all();
+    const std::span<const PathGroup> groups = path_.groups.all();
     for (std::size_t g = 0; g < groups.size(); ++g)
         total += groups[g].throughput * value(g);
     if (is_black(total)) return;
     if (!is_finite(total)) return drop(terminal.event);
-    const float scale = clamp_factor(total, n_scatter_);
+    const float scale = clamp_factor(total, path_.n_scatter);
     out_->beauty += total * scale;
     tracker_.add(terminal, value, scale);
 }
@@ -23,16 +23,16 @@ template <class Tracker>
 template <class Value>
 void Integrator<Tracker>::deposit_scattered(Terminal terminal, const Value& value) {
     Color total;
-    const std::span<const PathGroup> groups = groups_.all();
+    const std::span<const PathGroup> groups = path_.groups.all();
     const auto scaled = [&](std::size_t g, std::size_t c) {
-        return value(g, c) * groups_.indirect(g);
+        return value(g, c) * path_.groups.indirect(g);
     };
     for (std::size_t g = 0; g < groups.size(); ++g)
         for (std::size_t c = 0; c < n_channels_; ++c)
             total += groups[g].throughput * scaled(g, c);
     if (is_black(total)) return;
     if (!is_finite(total)) return drop(terminal.event);
-    const float scale = clamp_factor(total, n_scatter_ + 1);
+    const float scale = clamp_factor(total, path_.n_scatter + 1);
     out_->beauty += total * scale;
     tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, scaled, scale);
 }
@@ -45,7 +45,7 @@ void Integrator<Tracker>::deposit_scattered_light(const SceneLight& light, const
     if (!light.is_skydome) return deposit_scattered(as_light, value);
     if (light.common.aov_indirect) return deposit_scattered(as_background, value);
     const auto is_seen = [&](std::size_t g, std::size_t c) {
-        return groups_[g].key.seen && channels_[c].record->makes_no_event;
+        return path_.groups[g].key.seen && channels_[c].record->makes_no_event;
     };
     deposit_scattered(as_light, [&](std::size_t g, std::size_t c) {
         return is_seen(g, c) ? kBlack : value(g, c);

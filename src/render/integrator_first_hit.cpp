@@ -37,7 +37,7 @@ std::optional<std::size_t> see_through_lobe(const ClosureSet& closures) {
 /// Shaders write AOVs where the camera looks, through transparent surfaces but not through glass.
 template <class Tracker>
 void Integrator<Tracker>::start_writing() {
-    state.written = n_scatter_ == 0 && !written_.empty() ? written_.data() : nullptr;
+    path_.state.written = path_.n_scatter == 0 && !written_.empty() ? written_.data() : nullptr;
     for (WrittenAov& aov : written_)
         aov.set = false;
 }
@@ -55,8 +55,8 @@ void Integrator<Tracker>::write_aovs(const ShadePoint& at) {
         const WrittenAov& aov = written_[i];
         if (!aov.set || !is_finite(aov.value.rgb) || !std::isfinite(aov.value.a)) continue;
         if (aov.blend) {
-            out_->written[i].rgb += aov.value.rgb * passed_ * opacity;
-            out_->written[i].a += aov.value.a * average(passed_ * opacity);
+            out_->written[i].rgb += aov.value.rgb * path_.passed * opacity;
+            out_->written[i].a += aov.value.a * average(path_.passed * opacity);
         } else if (!out_->first.hit) {
             out_->written[i] = aov.value;
         }
@@ -71,7 +71,7 @@ void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& ca
     Color past;
     for (std::size_t i = 0; i < closures.size(); ++i)
         if (closures[i].record->makes_no_event) past += closures_.albedo(i);
-    out_->alpha += average(passed_ * clamp(opacity - closures_.matte() - past, 0, 1));
+    out_->alpha += average(path_.passed * clamp(opacity - closures_.matte() - past, 0, 1));
     if (knows_first_ || is_black(opacity)) return;
     knows_first_ = true;
     if (is_black(past)) {
@@ -87,7 +87,7 @@ void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& ca
 template <class Tracker>
 void Integrator<Tracker>::note_behind(const Surface& front, const Mat4f& camera_from_world) {
     shadow_closures_ = closures_;
-    Interiors inside = interiors_;
+    Interiors inside = path_.interiors;
     Surface surface = front;
     for (int i = 0; i <= scene_.settings.depth.total + scene_.settings.auto_transparency_depth;
          ++i) {
@@ -111,7 +111,7 @@ void Integrator<Tracker>::note_behind(const Surface& front, const Mat4f& camera_
         RayHit hit;
         ++counts.rays;
         if (!scene_.accel->intersect(ray, ray_bit(RayType::SpecularTransmit), hit)) return;
-        surface = make_surface(scene_.objects[hit.object], ray, hit, footprint_);
+        surface = make_surface(scene_.objects[hit.object], ray, hit, path_.footprint);
         surface.at.ray_type = RayType::SpecularTransmit;
         tell_path(surface.at, inside, surface.shader);
         shadow_closures_.begin(surface.at.wo, surface.frame);
@@ -143,7 +143,7 @@ ShadowShown Integrator<Tracker>::shadow_on(const Surface& surface, const ShadowM
         const Color brought =
             sample.radiance *
             (cosine * kInvPi / (pick.probability * sample.pdf * kShadowSamples) *
-             light_factor(light.common, RayType::DiffuseReflect, n_scatter_ + 1));
+             light_factor(light.common, RayType::DiffuseReflect, path_.n_scatter + 1));
         all += brought;
         if (!is_black(brought))
             arriving += brought * visibility(surface, pick.light, sample).tinted;

@@ -27,14 +27,15 @@ float weighted(Color odds, Color c) { return odds.r * c.r + odds.g * c.g + odds.
 
 template <class Tracker>
 void Integrator<Tracker>::begin_media(const Ray& ray, float t_end) {
-    const std::optional<BodyMedium> body = interiors_.scattering();
+    const std::optional<BodyMedium> body = path_.interiors.scattering();
     media_t_ = ray.t_min;
+    haze_.left = kWhite;
     if (scene_.volumes.empty() && scene_.atmosphere == nullptr && !body) return media_.clear();
-    media_points_ = sampler_->at2x4(kMediaPairs + segment_ * 4);
+    media_points_ = path_.sampler.at2x4(kMediaPairs + path_.segment * 4);
     Ray part = ray;
     part.t_max = t_end;
-    media_.begin(scene_.volumes, part, ray_mask(), body, *sampler_,
-                 hash_combine(segment_, kMediaStream), media_points_[0]);
+    media_.begin(scene_.volumes, part, ray_mask(), body, path_.sampler,
+                 hash_combine(path_.segment, kMediaStream), media_points_[0]);
 }
 
 template <class Tracker>
@@ -67,13 +68,13 @@ template <class Tracker>
 auto Integrator<Tracker>::collide(const Ray& ray, const Collision& collision) -> Passage {
     const Vec3f position = ray.origin + ray.direction * collision.t;
     if (collision.volume != nullptr) {
-        look_into(*collision.volume, position, -ray.direction, ray.time, groups_[0].key.ray_type,
-                  closures_);
+        look_into(*collision.volume, position, -ray.direction, ray.time,
+                  path_.groups[0].key.ray_type, closures_);
         // Emission on a way of mean length 1 / bound.
         add_emission(1 / collision.majorant);
     } else {
         closures_.begin_volume(-ray.direction);
-        closures_.add_medium(interiors_.scattering()->medium);
+        closures_.add_medium(path_.interiors.scattering()->medium);
     }
     const Color extinction = closures_.extinction();
     Color scattering;
@@ -82,7 +83,7 @@ auto Integrator<Tracker>::collide(const Ray& ray, const Collision& collision) ->
     if (lights_only_) scattering = kBlack;
 
     const float per_bound = 1 / collision.majorant;
-    const Color carried = absolute(groups_.total());
+    const Color carried = absolute(path_.groups.total());
     const Color odds = carried * (1 / std::max(carried.r + carried.g + carried.b, 1e-30F));
     const Color real = scattering * per_bound, null = kWhite - extinction * per_bound;
     const float to_real = weighted(odds, real), to_null = weighted(odds, absolute(null));
@@ -94,16 +95,17 @@ auto Integrator<Tracker>::collide(const Ray& ray, const Collision& collision) ->
         return Passage::Scattered;
     }
     const Color factor = null * (1 / (1 - p));
-    groups_.scale(factor);
+    path_.groups.scale(factor);
     tracker_.scale(factor);
-    passed_ *= factor;
-    const float left = max_component(absolute(groups_.total())) / max_component(path_start_);
+    path_.passed *= factor;
+    const float left = max_component(absolute(path_.groups.total())) * path_.siblings /
+                       max_component(path_.start);
     if (left >= kFaint) return Passage::Free;
     const float survival = left / kFaint;
     if (!(media_.number() < survival)) return Passage::Ended;
-    groups_.scale(Color::grey(1 / survival));
+    path_.groups.scale(Color::grey(1 / survival));
     tracker_.scale(Color::grey(1 / survival));
-    passed_ *= 1 / survival;
+    path_.passed *= 1 / survival;
     return Passage::Free;
 }
 
@@ -113,13 +115,13 @@ void Integrator<Tracker>::make_vertex(const Ray& ray, const Collision& collision
     Surface& at = medium_vertex_;
     at = {};
     at.in_medium = true;
-    at.object =
-        collision.volume != nullptr ? &collision.volume->object : interiors_.scattering()->object;
+    at.object = collision.volume != nullptr ? &collision.volume->object
+                                            : path_.interiors.scattering()->object;
     at.shader = at.object->shaders[0];
     at.t = collision.t;
     at.at.position = ray.origin + ray.direction * collision.t;
     at.at.wo = at.at.normal = at.at.geometric_normal = at.outward = -ray.direction;
-    at.at.ray_type = groups_[0].key.ray_type;
+    at.at.ray_type = path_.groups[0].key.ray_type;
     at.at.time = ray.time;
     at.frame = Frame::from_z(-ray.direction);
 }
@@ -131,9 +133,10 @@ void Integrator<Tracker>::add_media_opacity(const Ray& ray, float to) {
     part.t_min = media_t_;
     part.t_max = to;
     const Color left = estimate_transmittance(
-        scene_.volumes, part, ray_bit(RayType::Camera), *sampler_,
-        hash_combine(hash_combine(segment_, kOpacityStream), n_shadow_rays_++), shadow_closures_);
-    const Color opacity = passed_ * (kWhite - left);
+        scene_.volumes, part, ray_bit(RayType::Camera), path_.sampler,
+        hash_combine(hash_combine(path_.segment, kOpacityStream), n_shadow_rays_++),
+        shadow_closures_);
+    const Color opacity = path_.passed * (kWhite - left);
     out_->first.volume_opacity += opacity;
     out_->alpha += average(opacity);
 }
@@ -142,8 +145,9 @@ template <class Tracker>
 Color Integrator<Tracker>::media_transmittance(const Ray& ray) {
     if (scene_.volumes.empty()) return kWhite;
     return estimate_transmittance(
-        scene_.volumes, ray, ray_bit(RayType::Shadow), *sampler_,
-        hash_combine(hash_combine(segment_, kShadowStream), n_shadow_rays_++), shadow_closures_);
+        scene_.volumes, ray, ray_bit(RayType::Shadow), path_.sampler,
+        hash_combine(hash_combine(path_.segment, kShadowStream), n_shadow_rays_++),
+        shadow_closures_);
 }
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.

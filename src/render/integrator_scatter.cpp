@@ -27,30 +27,39 @@ void widen(Footprint& footprint, float pdf, int n_samples) {
 
 }  // namespace
 
+/// GI_*_samples 0 switches a kind of scattering off.
+template <class Tracker>
+bool Integrator<Tracker>::is_enabled(std::size_t scatterer) const {
+    return scene_.settings.gi_samples.of(
+               gi_kind(*channels_[channel_of_[scatterer]].record, false)) > 0;
+}
+
 /// How likely each closure, or passing straight through, is drawn: by what it can carry on.
 template <class Tracker>
 void Integrator<Tracker>::choose_probabilities() {
     // Throughput that may use each channel.
     const std::span<Color> reach = cleared_values();
     for (std::size_t c = 0; c < n_channels_; ++c)
-        for (std::size_t g = 0; g < groups_.all().size(); ++g)
-            if (!groups_[g].key.lights_only && channel_allowed(groups_[g].key, channels_[c]))
-                reach[c] += groups_[g].throughput * groups_.indirect(g);
+        for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
+            if (!path_.groups[g].key.lights_only &&
+                channel_allowed(path_.groups[g].key, channels_[c]))
+                reach[c] += path_.groups[g].throughput * path_.groups.indirect(g);
     float total = 0;
     const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
     if (n == 1 && is_black(closures_.transparency())) {
         // No choice: what the lobe returns need not be known.
-        probability_[0] = is_black(reach[0]) ? 0 : 1;
+        probability_[0] = is_black(reach[0]) || !is_enabled(0) ? 0 : 1;
         pass_probability_ = 0;
         return;
     }
     for (std::size_t i = 0; i < n; ++i) {
-        probability_[i] = std::max(0.0F, luminance(reach[channel_of_[i]] * albedo_of(i)));
+        probability_[i] =
+            is_enabled(i) ? std::max(0.0F, luminance(reach[channel_of_[i]] * albedo_of(i))) : 0;
         total += probability_[i];
     }
-    const bool may_pass = n_transparent_ < scene_.settings.auto_transparency_depth;
+    const bool may_pass = path_.n_transparent < scene_.settings.auto_transparency_depth;
     const float through =
-        may_pass ? std::max(0.0F, luminance(groups_.total() * closures_.transparency())) : 0;
+        may_pass ? std::max(0.0F, luminance(path_.groups.total() * closures_.transparency())) : 0;
     const float sum = total + through;
     pass_probability_ = sum > 0 ? through / sum : 0;
     for (std::size_t i = 0; i < n; ++i)
@@ -58,24 +67,29 @@ void Integrator<Tracker>::choose_probabilities() {
 }
 
 template <class Tracker>
-bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
-    float u = points_.choice.x;
-
-    // Straight through: no event, no depth.
+bool Integrator<Tracker>::go_on(const Surface& surface, Ray& ray) {
+    const float u = points_.choice.x;
     if (u < pass_probability_) {
-        const Color factor = closures_.transparency() * (1 / pass_probability_);
-        groups_.scale(factor);
-        tracker_.scale(factor);
-        passed_ *= factor;
-        ++n_transparent_;
-        go_straight(surface, ray);
+        pass_straight(surface, ray, pass_probability_);
         return ray.t_max > 0;
     }
-    u -= pass_probability_;
+    const std::optional<std::size_t> drawn = draw(u - pass_probability_);
+    return drawn && scatter(surface, *drawn, ray);
+}
 
-    const std::optional<std::size_t> drawn_one = draw(u);
-    if (!drawn_one) return false;
-    const std::size_t drawn = *drawn_one;
+/// Straight through: no event, no depth.
+template <class Tracker>
+void Integrator<Tracker>::pass_straight(const Surface& surface, Ray& ray, float probability) {
+    const Color factor = closures_.transparency() * (1 / probability);
+    path_.groups.scale(factor);
+    tracker_.scale(factor);
+    path_.passed *= factor;
+    ++path_.n_transparent;
+    go_straight(surface, ray);
+}
+
+template <class Tracker>
+bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray& ray) {
     if (drawn >= closures_.closures().size()) return scatter_below(surface, drawn, ray);
     const float u_choice = points_.roulette.y;
     const LobeSample sample = closures_.sample(drawn, points_.direction, u_choice);
@@ -110,37 +124,40 @@ bool Integrator<Tracker>::scatter(const Surface& surface, Ray& ray) {
     const Color wavelength = color_of_wavelength(surface, sample.wi);
     for (Color& factor : factors)
         factor *= wavelength;
-    if (!advance(factors, drawn)) return false;
+    const LightPlan plan = light_plan(*surface.object->lights, surface.in_medium);
+    if (!advance(factors, drawn) || !is_worth_a_ray()) return false;
     if (dot(sample.wi, surface.outward) < 0 && !surface.in_medium) {
-        monochromatic_ |= closures_.disperses();
+        path_.monochromatic |= closures_.disperses();
         // Curves have no inside: rays to their far side are past them.
         if (closures_.interior().is_body && !surface.at.on_curve)
-            interiors_.cross(surface.shader, closures_.interior(), surface.at.entering,
-                             surface.object);
+            path_.interiors.cross(surface.shader, closures_.interior(), surface.at.entering,
+                                  surface.object);
     }
-    last_.position = surface.at.position;
-    last_.pick_normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
-    last_.lights = surface.object->lights;
-    last_.pdf = pdf;
-    last_.delta = delta;
-    last_.samples_only = surface.object->tampers_with_shadows();
-    last_.next_segment = segment_ + 1;
-    footprint_.width += footprint_.spread * surface.t;
-    if (!delta) widen(footprint_, pdf, scene_.settings.samples);
+    path_.last.position = surface.at.position;
+    path_.last.pick_normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
+    path_.last.lights = surface.object->lights;
+    path_.last.plan = plan;
+    path_.last.pdf = pdf;
+    path_.last.delta = delta;
+    path_.last.samples_only = surface.object->tampers_with_shadows();
+    path_.last.next_segment = path_.segment + 1;
+    path_.fans_out &= delta;
+    path_.footprint.width += path_.footprint.spread * surface.t;
+    if (!delta) widen(path_.footprint, pdf, scene_.settings.samples);
     ray = {start_of_ray(surface, sample.wi), sample.wi, 0, kInfinity, surface.at.time};
     return true;
 }
 
 template <class Tracker>
-std::optional<std::size_t> Integrator<Tracker>::draw(float u) const {
+std::optional<std::size_t> Integrator<Tracker>::draw(float u, std::optional<GiKind> kind) const {
     const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
-    std::size_t drawn = 0;
-    while (drawn < n && u >= probability_[drawn])
-        u -= probability_[drawn++];
     // Rounding may leave a crumb behind the last one: it belongs to the last that can be drawn.
-    while (drawn >= n || !(probability_[drawn] > 0)) {
-        if (drawn == 0) return std::nullopt;
-        --drawn;
+    std::optional<std::size_t> drawn;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!(probability_[i] > 0) || (kind && kind_of_[i] != *kind)) continue;
+        drawn = i;
+        if (u < probability_[i]) break;
+        u -= probability_[i];
     }
     return drawn;
 }
@@ -151,16 +168,16 @@ void Integrator<Tracker>::see_past(std::span<const Color> factors) {
     Color through;
     for (std::size_t c = 0; c < n_channels_; ++c)
         if (channels_[c].record->makes_no_event) through += factors[c];
-    passed_ *= through;
-    if (is_black(passed_)) return;
+    path_.passed *= through;
+    if (is_black(path_.passed)) return;
     // Past the depth limit is black, and not a hole.
     for (std::size_t c = 0; c < n_channels_; ++c) {
         if (!channels_[c].record->makes_no_event || is_black(factors[c])) continue;
-        for (const PathGroup& g : groups_.all()) {
+        for (const PathGroup& g : path_.groups.all()) {
             if (!g.key.seen || !scene_.depth_rules.next(g.key, *channels_[c].record).lights_only)
                 continue;
-            out_->alpha += average(passed_);
-            passed_ = kBlack;
+            out_->alpha += average(path_.passed);
+            path_.passed = kBlack;
             return;
         }
     }
@@ -171,7 +188,6 @@ bool Integrator<Tracker>::advance(std::span<const Color> factors,
                                   [[maybe_unused]] std::size_t drawn) {
     // Every share splits over the channels.
     const std::span<const Channel> channels(channels_.data(), n_channels_);
-    PathGroups::Step step;
     const auto coin = [this](std::uint32_t stream) { return random(16 + stream); };
     std::span<const Channel> counted = channels;
 #ifdef LIGHTSIEVE_FAULT_INJECTION
@@ -181,14 +197,24 @@ bool Integrator<Tracker>::advance(std::span<const Color> factors,
         counted = std::span<const Channel>(as_drawn.data(), n_channels_);
 #endif
     if (seen()) see_past(factors);
-    groups_.scatter(counted, factors, scene_.depth_rules, coin, step);
-    tracker_.scatter(channels, factors, step, coin);
-    ++n_scatter_;
-    if (is_black(groups_.total())) return false;
+    path_.groups.scatter(counted, factors, scene_.depth_rules, coin, step_);
+    tracker_.scatter(channels, factors, step_, coin);
+    ++path_.n_scatter;
+    if (is_black(path_.groups.total())) return false;
     if (!survives_roulette()) return false;
-    exit_pending_ = std::any_of(groups_.all().begin(), groups_.all().end(),
-                                [](const PathGroup& g) { return g.key.exits; });
+    const std::span<const PathGroup> groups = path_.groups.all();
+    path_.exit_pending =
+        std::any_of(groups.begin(), groups.end(), [](const PathGroup& g) { return g.key.exits; });
     return true;
+}
+
+/// Past the depth limits only lights that can be met are.
+template <class Tracker>
+bool Integrator<Tracker>::is_worth_a_ray() const {
+    const std::span<const PathGroup> groups = path_.groups.all();
+    return scene_.lights_can_be_met || path_.exit_pending ||
+           !std::all_of(groups.begin(), groups.end(),
+                        [](const PathGroup& g) { return g.key.lights_only; });
 }
 
 template <class Tracker>
@@ -199,10 +225,10 @@ bool Integrator<Tracker>::scatter_below(const Surface& surface, std::size_t draw
     factors[channel_of_[drawn]] = closure.weight * (1 / probability_[drawn]);
     if (!advance(factors, drawn)) return false;
     const std::optional<WalkExit> exit =
-        walk_below(scene_, surface, closure.medium, points_.direction, *sampler_,
-                   hash_combine(segment_, kWalkStream), counts.rays);
+        walk_below(scene_, surface, closure.medium, points_.direction, path_.sampler,
+                   hash_combine(path_.segment, kWalkStream), counts.rays);
     if (!exit) return false;
-    groups_.scale(exit->throughput);
+    path_.groups.scale(exit->throughput);
     tracker_.scale(exit->throughput);
     add_light_at_exit(*exit);
 
@@ -211,15 +237,17 @@ bool Integrator<Tracker>::scatter_below(const Surface& surface, std::size_t draw
                          .world_from_local(sample_cosine_hemisphere({random(8), random(9)}));
     if (!(dot(wi, exit->outside) > 0)) return false;
     const Surface& at = exit->surface;
-    last_.position = at.at.position;
-    last_.pick_normal = exit->outside;
-    last_.lights = at.object->lights;
-    last_.pdf = kInvPi * dot(exit->normal, wi);
-    last_.delta = false;
-    last_.samples_only = at.object->tampers_with_shadows();
-    last_.next_segment = segment_ + 1;
-    footprint_.width += footprint_.spread * surface.t;
-    widen(footprint_, last_.pdf, scene_.settings.samples);
+    path_.last.position = at.at.position;
+    path_.last.pick_normal = exit->outside;
+    path_.last.lights = at.object->lights;
+    path_.last.plan = LightPlan::Pick;
+    path_.last.pdf = kInvPi * dot(exit->normal, wi);
+    path_.last.delta = false;
+    path_.last.samples_only = at.object->tampers_with_shadows();
+    path_.last.next_segment = path_.segment + 1;
+    path_.fans_out = false;
+    path_.footprint.width += path_.footprint.spread * surface.t;
+    widen(path_.footprint, path_.last.pdf, scene_.settings.samples);
     ray = {offset_ray_origin(at.at.position, exit->outside), wi, 0, kInfinity, at.at.time};
     return true;
 }
@@ -227,27 +255,32 @@ bool Integrator<Tracker>::scatter_below(const Surface& surface, std::size_t draw
 /// Ends faint paths early; what survives carries more. Goes by the shares of the beauty, never by what AOVs are asked for.
 template <class Tracker>
 bool Integrator<Tracker>::survives_roulette() {
-    if (scene_.settings.roulette_depth < 0 || n_scatter_ <= scene_.settings.roulette_depth)
+    if (scene_.settings.roulette_depth < 0 || path_.n_scatter <= scene_.settings.roulette_depth)
         return true;
-    const float start = max_component(path_start_);
+    const float start = max_component(path_.start) / path_.siblings;
     const float q =
-        std::clamp(max_component(groups_.total()) / start, kLeastSurvival, kMostSurvival);
+        std::clamp(max_component(path_.groups.total()) / start, kLeastSurvival, kMostSurvival);
     if (points_.roulette.x >= q) return false;
-    groups_.scale(Color::grey(1 / q));
+    path_.groups.scale(Color::grey(1 / q));
     tracker_.scale(Color::grey(1 / q));
-    passed_ *= 1 / q;
+    path_.passed *= 1 / q;
     return true;
 }
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
-#define LIGHTSIEVE_SCATTER(Tracker)                                                      \
-    template void Integrator<Tracker>::choose_probabilities();                           \
-    template std::optional<std::size_t> Integrator<Tracker>::draw(float) const;          \
-    template bool Integrator<Tracker>::scatter(const Surface&, Ray&);                    \
-    template void Integrator<Tracker>::see_past(std::span<const Color>);                 \
-    template bool Integrator<Tracker>::advance(std::span<const Color>, std::size_t);     \
-    template bool Integrator<Tracker>::scatter_below(const Surface&, std::size_t, Ray&); \
-    template bool Integrator<Tracker>::survives_roulette();
+#define LIGHTSIEVE_SCATTER(Tracker)                                                             \
+    template bool Integrator<Tracker>::is_enabled(std::size_t) const;                           \
+    template void Integrator<Tracker>::choose_probabilities();                                  \
+    template std::optional<std::size_t> Integrator<Tracker>::draw(float, std::optional<GiKind>) \
+        const;                                                                                  \
+    template bool Integrator<Tracker>::go_on(const Surface&, Ray&);                             \
+    template void Integrator<Tracker>::pass_straight(const Surface&, Ray&, float);              \
+    template bool Integrator<Tracker>::scatter(const Surface&, std::size_t, Ray&);              \
+    template void Integrator<Tracker>::see_past(std::span<const Color>);                        \
+    template bool Integrator<Tracker>::advance(std::span<const Color>, std::size_t);            \
+    template bool Integrator<Tracker>::scatter_below(const Surface&, std::size_t, Ray&);        \
+    template bool Integrator<Tracker>::survives_roulette();                                     \
+    template bool Integrator<Tracker>::is_worth_a_ray() const;
 LIGHTSIEVE_SCATTER(AovTracker)
 LIGHTSIEVE_SCATTER(LogTracker)
 #undef LIGHTSIEVE_SCATTER

@@ -8,6 +8,7 @@
 // Source: Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images".
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -19,6 +20,16 @@ namespace lightsieve {
 
 class Interiors {
   public:
+    Interiors() = default;
+    ~Interiors() = default;
+    // Only what is there is copied: paths are mostly inside of nothing.
+    Interiors(const Interiors& other) { *this = other; }
+    Interiors& operator=(const Interiors& other) {
+        if (this == &other) return *this;
+        n_ = other.n_;
+        std::copy_n(other.bodies_.begin(), n_, bodies_.begin());
+        return *this;
+    }
     void clear() { n_ = 0; }
     /// body  the shader of the surface that the path went through to the inside
     /// object  whose surface it is: its lights shine on what the body is filled with

@@ -286,10 +286,9 @@ struct LightSampler::Builder {
     }
 
     void build() {
-        const auto can_pick = [](const Place& p) { return p.kind != Place::Kind::Absent; };
-        if (std::ranges::count_if(out.places_, can_pick) == 1)
-            out.lone_ = static_cast<std::uint32_t>(std::ranges::find_if(out.places_, can_pick) -
-                                                   out.places_.begin());
+        for (std::uint32_t i = 0; i < out.places_.size(); ++i)
+            if (out.contains(i)) out.lights_.push_back(i);
+        if (out.lights_.size() == 1) out.lone_ = out.lights_.front();
         if (clusters.empty()) return;
         binary.reserve(2 * clusters.size());
         build_wide(build_binary(0, clusters.size(), 0), kNone, 0);

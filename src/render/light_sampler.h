@@ -51,6 +51,12 @@ class LightSampler {
     /// The probability with which `pick` gives `light` there: the same arithmetic, so exactly the same number.
     [[nodiscard]] float probability(Vec3f position, Vec3f normal,
                                     std::uint32_t light) const noexcept;
+    /// The lights that can be picked, by index.
+    [[nodiscard]] std::span<const std::uint32_t> lights() const noexcept { return lights_; }
+    /// Whether a light can be picked anywhere.
+    [[nodiscard]] bool contains(std::uint32_t light) const noexcept {
+        return light < places_.size() && places_[light].kind != Place::Kind::Absent;
+    }
     /// Whether any light can be picked at all.
     [[nodiscard]] bool empty() const noexcept { return nodes_.empty() && infinite_.empty(); }
 
@@ -115,11 +121,12 @@ class LightSampler {
     [[nodiscard]] LightPick pick_infinite(Vec3f normal, float sum,
                                           LightPick so_far) const noexcept;
 
-    std::vector<Node> nodes_;         ///< the root is number 0
-    std::vector<Bounds4> bounds_;     ///< of the nodes' branches
-    std::vector<Infinite> infinite_;  ///< in the caller's order
-    std::vector<Place> places_;       ///< one for each light of the caller's span
-    std::uint32_t lone_ = kNone;      ///< the light that can be picked, if there is only one
+    std::vector<Node> nodes_;            ///< the root is number 0
+    std::vector<Bounds4> bounds_;        ///< of the nodes' branches
+    std::vector<Infinite> infinite_;     ///< in the caller's order
+    std::vector<Place> places_;          ///< one for each light of the caller's span
+    std::vector<std::uint32_t> lights_;  ///< those that can be picked
+    std::uint32_t lone_ = kNone;         ///< the light that can be picked, if there is only one
 };
 
 }  // namespace lightsieve

@@ -38,6 +38,9 @@ class LogTracker {
   public:
     explicit LogTracker(const Scene& scene);
     void start(Color throughput, SampleBuffer& out);
+    using Saved = PathTerms<HistoryMachine>;
+    void save(Saved& to) const { to.copy_from(terms_); }
+    void restore(const Saved& from) { terms_.copy_from(from); }
     void scale(Color factor) { terms_.scale(factor); }
     void keep_only(std::size_t group, float factor) { terms_.keep_only(group, factor); }
     template <class Random>

@@ -200,6 +200,8 @@ class PathGroups {
             to;  ///< new group, or kNone
         std::array<std::array<float, kMaxChannels>, kMaxGroups>
             scale;  ///< factor that waited, times that of a coin that joined groups
+        std::array<PathGroup, kMaxGroups * kMaxChannels>
+            candidates;  ///< of `scatter`; kept, because clearing it costs more than using it
     };
 
     /// Moves every group through every channel. factors[c] = f_c / p_mix; black ones are left out.
@@ -207,7 +209,7 @@ class PathGroups {
     template <class Random>
     void scatter(std::span<const Channel> channels, std::span<const Color> factors,
                  const DepthRules& rules, const Random& random, Step& step) {
-        std::array<PathGroup, kMaxCandidates>& candidates = candidates_;
+        std::array<PathGroup, kMaxCandidates>& candidates = step.candidates;
         // The factors that waited, and those that wait from now on: two lists in turn.
         const std::array<Waiting, kMaxFactors>& waiting = factors_[current_];
         current_ = 1 - current_;
@@ -315,8 +317,6 @@ class PathGroups {
     std::array<std::array<Waiting, kMaxFactors>, 2> factors_;
     std::size_t current_ = 0;
     std::size_t n_factors_ = 1;
-    std::array<PathGroup, kMaxCandidates>
-        candidates_;  ///< of `scatter`; kept, because clearing it costs more than using it
 };
 
 /// The terms of a path in one automaton (or in the path log's tree of histories).
@@ -339,6 +339,11 @@ class PathTerms {
     }
     [[nodiscard]] std::span<const Term> all() const { return terms_; }
     [[nodiscard]] bool empty() const { return terms_.empty(); }
+    /// Takes over the terms of another path. Capacity is kept.
+    void copy_from(const PathTerms& other) {
+        terms_ = other.terms_;
+        n_reduced_ = other.n_reduced_;
+    }
     void scale(Color factor) {
         for (Term& t : terms_)
             t.throughput *= factor;

@@ -12,6 +12,7 @@
 #include "lpe/program.h"
 #include "render/accel.h"
 #include "render/aov_plan.h"
+#include "render/gi_kind.h"
 #include "render/light_sampler.h"
 #include "render/path_terms.h"
 #include "render/render.h"
@@ -38,6 +39,8 @@ struct SceneLight {
     bool is_skydome = false;
     /// Its shadows are tampered with (cast_shadows off, shadow_density, shadow_color): only light samples find it.
     bool samples_only = false;
+    /// Samples where a path splits, on surfaces and in volumes: the squares of `samples` and `volume_samples`.
+    int n_samples = 1, n_volume_samples = 1;
 };
 
 /// What options and command line say, put together.
@@ -50,6 +53,7 @@ struct RenderSettings {
     std::uint32_t seed = 1;
     int threads = 0;
     DepthLimits depth;
+    GiSamples gi_samples;
     int auto_transparency_depth = 10;
     float sample_clamp = kInfinity;      ///< AA_sample_clamp
     float indirect_clamp = 10;           ///< indirect_sample_clamp
@@ -105,6 +109,7 @@ class Scene {
     bool shadows_by_mask =
         false;  ///< some shape hides lights from shadow rays only, or from others only
     bool has_transparency = false;             ///< some shape may be transparent to shadows
+    bool lights_can_be_met = false;            ///< some ray may meet some light by chance
     bool disperses = false;                    ///< some shader bends light by wavelength
     bool capture = false, write_files = true;  ///< as RenderOptions
     AovPlan plan;

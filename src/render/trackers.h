@@ -42,10 +42,22 @@ class AovTracker {
             sets_.push_back({{&scene.plan.program->automaton(i)}, {}});
     }
 
+    /// The terms of one path, put aside.
+    using Saved = std::vector<PathTerms<AutomatonMachine>>;
+
     void start(Color throughput, SampleBuffer& out) {
         out_ = &out;
         for (Set& set : sets_)
             set.terms.start(set.machine, throughput);
+    }
+    void save(Saved& to) const {
+        to.resize(sets_.size());
+        for (std::size_t i = 0; i < sets_.size(); ++i)
+            to[i].copy_from(sets_[i].terms);
+    }
+    void restore(const Saved& from) {
+        for (std::size_t i = 0; i < sets_.size(); ++i)
+            sets_[i].terms.copy_from(from[i]);
     }
     void scale(Color factor) {
         for (Set& set : sets_)

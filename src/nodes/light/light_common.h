@@ -34,9 +34,11 @@ void describe_light_common(Describe<T>& d) {
         .range(0, 1);
     d.param("shadow_color", &LightCommon::shadow_color, "Colour that shadows are filled with.");
     d.param("samples", &LightCommon::samples,
-            "Arnold's shadow rays a shading point; here lights share the pixel's samples.")
-        .ignored();
-    d.param("volume_samples", &LightCommon::volume_samples, "The same for volumes.").ignored();
+            "Shadow rays, squared, from where the camera looks; one from everywhere else. Where "
+            "there "
+            "are more than 16 lights some are picked.")
+        .range(0, 64);
+    d.param("volume_samples", &LightCommon::volume_samples, "The same for volumes.").range(0, 64);
     d.param("camera", &LightCommon::camera,
             "Factor on the light seen directly by the camera; 0 hides it.")
         .range(0, 1);

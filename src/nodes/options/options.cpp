@@ -117,18 +117,19 @@ void describe_sampling(Describe<Options>& d) {
             "Clamps always scale AOVs with the beauty here, so that AOVs add up.")
         .ignored();
     d.param("GI_diffuse_samples", &Options::GI_diffuse_samples,
-            "Arnold's splitting of diffuse rays.")
-        .ignored();
+            "Diffuse rays, squared, from where the camera looks; 0: no indirect diffuse light.")
+        .range(0, 64);
     d.param("GI_specular_samples", &Options::GI_specular_samples,
-            "Arnold's splitting of specular rays.")
-        .ignored();
+            "The same for specular reflection; a perfect mirror needs one.")
+        .range(0, 64);
     d.param("GI_transmission_samples", &Options::GI_transmission_samples,
-            "Arnold's splitting of transmitted rays.")
-        .ignored();
-    d.param("GI_sss_samples", &Options::GI_sss_samples, "Arnold's splitting of subsurface rays.")
-        .ignored();
-    d.param("GI_volume_samples", &Options::GI_volume_samples, "Arnold's splitting of volume rays.")
-        .ignored();
+            "The same for specular transmission.")
+        .range(0, 64);
+    d.param("GI_sss_samples", &Options::GI_sss_samples, "The same for subsurface scattering.")
+        .range(0, 64);
+    d.param("GI_volume_samples", &Options::GI_volume_samples,
+            "The same for scattering in volumes.")
+        .range(0, 64);
     d.param("light_samples", &Options::light_samples, "Arnold's light samples a hit.").ignored();
     d.param("indirect_specular_blur", &Options::indirect_specular_blur,
             "Arnold's roughening of indirect highlights; never done here.")

@@ -1,0 +1,219 @@
+// Where a path splits: at the first vertex that the camera sees, be it in perfect mirrors, all lights are asked and as many
+// rays go on as options.GI_*_samples say; from there on each is a single path.
+//
+// Rays of each kind are drawn from the scatterers of that kind alone, so that a faint reflection gets its rays however
+// bright the rest is. A direction still belongs to every lobe: each lobe's value counts over the density of all rays
+// together, the sum of rays times densities (balance heuristic over all kinds, Veach 1997, eq. 9.15). Light samples are
+// weighted against the same sum. A number of rays need not be whole: chance decides about the rest.
+#include <algorithm>
+
+#include "render/integrator.h"
+#include "render/path_log.h"
+
+namespace lightsieve {
+namespace {
+
+/// Up to so many lights are all asked where a path splits; of more, so many are picked.
+constexpr std::size_t kMostLights = 16;
+constexpr int kPicks = 8;
+/// Families of split samples, see Sampler::split: lights, picks, kinds of rays (as many as there are kinds).
+constexpr std::uint32_t kKindFamily = 0, kPickFamily = 32, kLightFamily = 33;
+/// Streams of random numbers: samples of little effect, and whole numbers of rays by kind.
+constexpr std::uint32_t kCoinStream = 2, kCountStream = 32;
+
+}  // namespace
+
+template <class Tracker>
+auto Integrator<Tracker>::light_plan(const LightSampler& lights, bool in_medium) const
+    -> LightPlan {
+    if (!path_.fans_out || lights.empty()) return LightPlan::Pick;
+    if (path_.n_scatter > 0) return LightPlan::Once;
+    return in_medium ? LightPlan::OftenInVolume : LightPlan::Often;
+}
+
+template <class Tracker>
+float Integrator<Tracker>::light_samples(LightPlan plan, const LightSampler& lights,
+                                         Vec3f position, Vec3f normal, std::uint32_t index) const {
+    if (plan == LightPlan::Pick) return lights.probability(position, normal, index);
+    if (lights.lights().size() > kMostLights)
+        return kPicks * lights.probability(position, normal, index);
+    if (!lights.contains(index)) return 0;
+    const SceneLight& light = scene_.lights[index];
+    if (plan == LightPlan::Once) return 1;
+    return static_cast<float>(plan == LightPlan::Often ? light.n_samples : light.n_volume_samples);
+}
+
+template <class Tracker>
+void Integrator<Tracker>::ask_lights(const Surface& surface, LightPlan plan) {
+    const LightSampler& lights = *surface.object->lights;
+    const Vec3f position = surface.at.position;
+    const Vec3f normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
+    const std::uint32_t pair = kFirstPair + path_.segment * kPairsPerSegment;
+    if (lights.lights().size() > kMostLights) {
+        for (std::uint32_t i = 0; i < kPicks; ++i) {
+            const Sampler part = path_.sampler.split(kPickFamily, i, kPicks);
+            const LightPick pick = lights.pick(position, normal, part.at2(pair).y);
+            if (pick.probability > 0)
+                ask_light(surface, pick.light, kPicks * pick.probability, part.at2(pair + 2),
+                          part.random(kCoinStream));
+        }
+        return;
+    }
+    for (const std::uint32_t index : lights.lights()) {
+        const float samples = light_samples(plan, lights, position, normal, index);
+        const auto n = static_cast<std::uint32_t>(samples);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const Sampler part = path_.sampler.split(kLightFamily + index, i, n);
+            ask_light(surface, index, samples, part.at2(pair + 2), part.random(kCoinStream));
+        }
+    }
+}
+
+/// Whether rays through the channel are past their depth limit, for all that comes by them.
+template <class Tracker>
+bool Integrator<Tracker>::ends_at_lights(const Channel& channel) const {
+    // Rays that find the background in place of a surface, or show that there is something, are worth it.
+    if (channel.record->exit_to_background || channel.record->makes_no_event) return false;
+    const std::span<const PathGroup> groups = path_.groups.all();
+    return std::all_of(groups.begin(), groups.end(), [&](const PathGroup& g) {
+        return g.key.lights_only || scene_.depth_rules.next(g.key, *channel.record).lights_only;
+    });
+}
+
+/// How much of what the camera sent out reaches the surface and does not pass it, 0 to 1.
+template <class Tracker>
+float Integrator<Tracker>::carried() const {
+    const float start = luminance(path_.start) / path_.siblings;
+    const float stays = 1 - std::clamp(average(closures_.transparency()), 0.0F, 1.0F);
+    return start > 0 ? std::clamp(luminance(path_.groups.total()) / start, 0.0F, 1.0F) * stays : 0;
+}
+
+/// How many rays a vertex in a medium sends on. The same for all points of a ray: points along it are weighted by it.
+template <class Tracker>
+float Integrator<Tracker>::volume_rays(const Channel& channel) const {
+    const int n = scene_.settings.gi_samples.volume;
+    if (n == 0 || path_.n_scatter > 0 || !path_.fans_out) return n == 0 ? 0 : 1;
+    if (ends_at_lights(channel)) return scene_.lights_can_be_met ? 1 : 0;
+    return static_cast<float>(n);
+}
+
+/// Turns the scatterers' probabilities into numbers of rays.
+template <class Tracker>
+auto Integrator<Tracker>::choose_ray_counts() -> RayCounts {
+    const std::size_t n_closures = closures_.closures().size();
+    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
+    RayCounts sum{}, rays{};
+    std::array<bool, kGiKinds> goes_on{};
+    std::array<const Channel*, kGiKinds> channel{};
+    float total = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Channel& of = channels_[channel_of_[i]];
+        kind_of_[i] = gi_kind(*of.record, i < n_closures && closures_.delta(i));
+        const auto k = static_cast<std::size_t>(kind_of_[i]);
+        if (!(probability_[i] > 0)) continue;
+        sum[k] += probability_[i];
+        total += probability_[i];
+        channel[k] = &of;
+        goes_on[k] = goes_on[k] || !ends_at_lights(of);
+    }
+    const float weight = carried();
+    for (std::size_t k = 0; k < kGiKinds; ++k) {
+        if (!(sum[k] > 0)) continue;
+        const auto kind = static_cast<GiKind>(k);
+        const auto most = static_cast<float>(scene_.settings.gi_samples.of(kind));
+        if (kind == GiKind::Volume)
+            rays[k] = volume_rays(*channel[k]);
+        else if (kind == GiKind::Mirror || kind == GiKind::Clear)
+            // Behind mirrors as many as come: a hall of mirrors must not make ever more.
+            rays[k] = path_.n_scatter > 0 ? most * sum[k] / total : most;
+        else
+            rays[k] = most * weight;
+        // Past depth limits rays are there only to meet lights. Walks below the surface ask lights themselves.
+        if (!goes_on[k] && kind != GiKind::Subsurface)
+            rays[k] = scene_.lights_can_be_met ? std::min(rays[k], 1.0F) : 0;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto k = static_cast<std::size_t>(kind_of_[i]);
+        if (probability_[i] > 0) probability_[i] *= rays[k] / sum[k];
+    }
+    return rays;
+}
+
+template <class Tracker>
+bool Integrator<Tracker>::fan_out(const Surface& surface, Ray& ray) {
+    const RayCounts rays = choose_ray_counts();
+    if (n_channels_ > 0 && !all_delta_) add_light_samples(surface);
+    const bool straight = pass_probability_ > 0;
+    std::array<std::uint32_t, kGiKinds> n{};
+    std::uint32_t total = 0;
+    for (std::size_t k = 0; k < kGiKinds; ++k) {
+        if (!(rays[k] > 0)) continue;
+        const float u = random(kCountStream + static_cast<std::uint32_t>(k));
+        n[k] = static_cast<std::uint32_t>(rays[k] + u);
+        total += n[k];
+    }
+    if (total + (straight ? 1 : 0) > 1) {
+        before_.path = path_;
+        tracker_.save(before_.terms);
+    }
+    bool is_first = true;
+    for (std::size_t k = 0; k < kGiKinds; ++k)
+        for (std::uint32_t i = 0; i < n[k]; ++i) {
+            if (!is_first) {
+                path_ = before_.path;
+                tracker_.restore(before_.terms);
+            }
+            is_first = false;
+            path_.sampler =
+                path_.sampler.split(kKindFamily + static_cast<std::uint32_t>(k), i, n[k]);
+            path_.siblings *= std::max(rays[k], 1.0F);
+            const std::array<Vec2f, 4> points =
+                path_.sampler.at2x4(kFirstPair + path_.segment * kPairsPerSegment);
+            points_ = {points[0], points[1], points[2], points[3]};
+            Ray next = ray;
+            const std::optional<std::size_t> drawn =
+                draw(points_.choice.x * rays[k], static_cast<GiKind>(k));
+            const bool goes_on = drawn && scatter(surface, *drawn, next);
+            if (total == 1 && !straight) {
+                ray = next;
+                return goes_on;
+            }
+            if (!goes_on) continue;
+            ++path_.segment;
+            put_aside(next);
+        }
+    if (!straight) return false;
+    if (!is_first) {
+        path_ = before_.path;
+        tracker_.restore(before_.terms);
+    }
+    pass_straight(surface, ray, 1);
+    return ray.t_max > 0;
+}
+
+template <class Tracker>
+void Integrator<Tracker>::put_aside(const Ray& ray) {
+    if (n_forks_ == forks_.size()) forks_.emplace_back();
+    Fork& fork = forks_[n_forks_++];
+    fork.path = path_;
+    fork.ray = ray;
+    tracker_.save(fork.terms);
+}
+
+// Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
+#define LIGHTSIEVE_FAN(Tracker)                                                                  \
+    template auto Integrator<Tracker>::light_plan(const LightSampler&, bool) const -> LightPlan; \
+    template float Integrator<Tracker>::light_samples(LightPlan, const LightSampler&, Vec3f,     \
+                                                      Vec3f, std::uint32_t) const;               \
+    template void Integrator<Tracker>::ask_lights(const Surface&, LightPlan);                    \
+    template bool Integrator<Tracker>::ends_at_lights(const Channel&) const;                     \
+    template float Integrator<Tracker>::carried() const;                                         \
+    template float Integrator<Tracker>::volume_rays(const Channel&) const;                       \
+    template auto Integrator<Tracker>::choose_ray_counts() -> RayCounts;                         \
+    template bool Integrator<Tracker>::fan_out(const Surface&, Ray&);                            \
+    template void Integrator<Tracker>::put_aside(const Ray&);
+LIGHTSIEVE_FAN(AovTracker)
+LIGHTSIEVE_FAN(LogTracker)
+#undef LIGHTSIEVE_FAN
+
+}  // namespace lightsieve
