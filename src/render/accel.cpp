@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "core/error.h"
+#include "render/placement.h"
+#include "scene/simple_shape.h"
 
 namespace lightsieve {
 namespace {
@@ -61,6 +63,94 @@ float even_scale(const Mat4f& m) {
 }
 
 constexpr std::size_t kMaxKeys = RTC_MAX_TIME_STEP_COUNT;
+
+// Shapes that Embree does not know: it asks for bounds and intersections, always in object space.
+
+/// How far a plane's bounds reach. Embree leaves out what lies beyond 1.8e18.
+constexpr float kPlaneReach = 1e15F;
+
+RTCBounds to_embree(const Box3f& box) {
+    return {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
+}
+
+Box3f reach_of(const SimpleShape& shape) {
+    if (shape.kind != SimpleShape::Kind::Plane) return bounds_of(shape);
+    const Vec3f far{kPlaneReach, kPlaneReach, kPlaneReach};
+    Box3f out{-far, far};
+    // A plane across an axis is a flat box: most rays that stay on one side of it never look at it.
+    for (int i = 0; i < 3; ++i)
+        if (std::abs(shape.axis[i]) == 1) out.lower[i] = out.upper[i] = shape.base[i];
+    return out;
+}
+
+Vec3f center_at(const PointList& points, std::size_t i, KeyBlend k) {
+    return points.centers[k.first][i] * (1 - k.f) + points.centers[k.second][i] * k.f;
+}
+
+float radius_at(const PointList& points, std::size_t i, KeyBlend k) {
+    return std::lerp(points.radii[k.first][i], points.radii[k.second][i], k.f);
+}
+
+Box3f bounds_at_key(const SimpleShape& shape, unsigned /*primitive*/, unsigned /*key*/) {
+    return reach_of(shape);
+}
+
+Box3f bounds_at_key(const PointList& points, unsigned primitive, unsigned key) {
+    const Vec3f c = points.centers[key][primitive];
+    const FacingQuad quad = quad_of(points, primitive, c, points.radii[key][primitive]);
+    const float r = std::hypot(quad.half_width, quad.half_height);
+    return {c - Vec3f{r, r, r}, c + Vec3f{r, r, r}};
+}
+
+std::optional<float> hit_at(const SimpleShape& shape, unsigned /*primitive*/, const RTCRay& ray) {
+    return hit_simple_shape(shape, {ray.org_x, ray.org_y, ray.org_z},
+                            {ray.dir_x, ray.dir_y, ray.dir_z}, ray.tnear, ray.tfar);
+}
+
+std::optional<float> hit_at(const PointList& points, unsigned primitive, const RTCRay& ray) {
+    const KeyBlend k = blend_at(points.centers.size(), ray.time);
+    return hit_facing_quad(quad_of(points, primitive, center_at(points, primitive, k),
+                                   radius_at(points, primitive, k)),
+                           {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z},
+                           ray.tnear, ray.tfar);
+}
+
+/// A geometry of `n` primitives that are met by `hit_at`. `shape` must outlive it.
+template <class Shape>
+RTCGeometry asking_geometry(RTCDevice device, const Shape& shape, std::size_t n,
+                            std::size_t n_keys) {
+    RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(g, static_cast<unsigned>(n));
+    rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(n_keys));
+    rtcSetGeometryUserData(g, const_cast<Shape*>(&shape));
+    rtcSetGeometryBoundsFunction(
+        g,
+        [](const RTCBoundsFunctionArguments* a) {
+            const auto& s = *static_cast<const Shape*>(a->geometryUserPtr);
+            *a->bounds_o = to_embree(bounds_at_key(s, a->primID, a->timeStep));
+        },
+        nullptr);
+    // Rays come one by one (rtcIntersect1, rtcOccluded1).
+    rtcSetGeometryIntersectFunction(g, [](const RTCIntersectFunctionNArguments* a) {
+        if (a->valid[0] == 0) return;
+        const auto& s = *static_cast<const Shape*>(a->geometryUserPtr);
+        auto* r = reinterpret_cast<RTCRayHit*>(a->rayhit);
+        const std::optional<float> t = hit_at(s, a->primID, r->ray);
+        if (!t) return;
+        r->ray.tfar = *t;
+        r->hit.u = r->hit.v = 0;
+        r->hit.primID = a->primID;
+        r->hit.geomID = a->geomID;
+        r->hit.instID[0] = a->context->instID[0];
+    });
+    rtcSetGeometryOccludedFunction(g, [](const RTCOccludedFunctionNArguments* a) {
+        if (a->valid[0] == 0) return;
+        const auto& s = *static_cast<const Shape*>(a->geometryUserPtr);
+        auto* r = reinterpret_cast<RTCRay*>(a->ray);
+        if (hit_at(s, a->primID, *r)) r->tfar = -kInfinity;
+    });
+    return g;
+}
 
 /// Makes one Embree geometry; positions are transformed by `placement` (identity inside an instanced scene).
 class GeometryMaker {
@@ -143,6 +233,29 @@ class GeometryMaker {
         return g;
     }
 
+    RTCGeometry operator()(const PointList& points) const {
+        if (points.mode == PointList::Mode::Quad)
+            return asking_geometry(device_, points, points.index.size(),
+                                   std::min(kMaxKeys, points.centers.size()));
+        RTCGeometry g = rtcNewGeometry(device_, points.mode == PointList::Mode::Sphere
+                                                    ? RTC_GEOMETRY_TYPE_SPHERE_POINT
+                                                    : RTC_GEOMETRY_TYPE_DISC_POINT);
+        const auto n_keys = static_cast<unsigned>(std::min(kMaxKeys, points.centers.size()));
+        rtcSetGeometryTimeStepCount(g, n_keys);
+        const float scale = even_scale(placement_[0]);
+        for (unsigned k = 0; k < n_keys; ++k)
+            store<float>(g, RTC_BUFFER_TYPE_VERTEX, k, RTC_FORMAT_FLOAT4, 4, points.index.size(),
+                         [&](std::size_t i) {
+                             const Vec3f p = placement_[0].point(points.centers[k][i]);
+                             return std::array{p.x, p.y, p.z, points.radii[k][i] * scale};
+                         });
+        return g;
+    }
+
+    RTCGeometry operator()(const SimpleShape& shape) const {
+        return asking_geometry(device_, shape, 1, 1);
+    }
+
   private:
     static RTCGeometryType type_of(const CurveList& curves) {
         if (curves.linear)
@@ -169,7 +282,7 @@ class GeometryMaker {
                std::size_t width, std::size_t n, const Item& item) const {
         auto* out = static_cast<T*>(
             rtcSetNewGeometryBuffer(g, buffer, slot, format, width * sizeof(T), n));
-        if (out == nullptr) fail(device_, "storing curves");
+        if (out == nullptr) fail(device_, "storing curves or points");
         for (std::size_t i = 0; i < n; ++i) {
             const auto value = item(i);
             std::memcpy(out + width * i, value.data(), sizeof(value));
@@ -180,8 +293,11 @@ class GeometryMaker {
     std::span<const Mat4f> placement_;
 };
 
-/// Spheres and curves that a transform moves or squashes stay in object space.
+/// Spheres and curves that a transform moves or squashes stay in object space, and so does all that we are asked about.
 bool must_instance(const AccelObject& object) {
+    if (std::holds_alternative<SimpleShape>(object.geometry->data)) return true;
+    if (const auto* points = std::get_if<PointList>(&object.geometry->data))
+        if (points->mode == PointList::Mode::Quad) return true;
     return !std::holds_alternative<TriangleMesh>(object.geometry->data) &&
            (object.world_from_object.size() > 1 || even_scale(object.world_from_object[0]) == 0);
 }
@@ -213,6 +329,20 @@ Box3f bounds_of(const AccelObject& object) {
         for (std::size_t k = 0; k < curves->points.size(); ++k)
             for (std::size_t i = 0; i < curves->points[k].size(); ++i)
                 grow(curves->points[k][i], curves->radii[k][i]);
+    if (const auto* points = std::get_if<PointList>(&object.geometry->data))
+        for (std::size_t k = 0; k < points->centers.size(); ++k)
+            for (std::size_t i = 0; i < points->index.size(); ++i) {
+                const Vec3f c = points->centers[k][i];
+                const FacingQuad quad = quad_of(*points, i, c, points->radii[k][i]);
+                grow(c, std::hypot(quad.half_width, quad.half_height));
+            }
+    if (const auto* shape = std::get_if<SimpleShape>(&object.geometry->data))
+        if (const Box3f box = bounds_of(*shape); !box.empty())
+            for (int i = 0; i < 8; ++i)
+                grow({(i & 1) != 0 ? box.upper.x : box.lower.x,
+                      (i & 2) != 0 ? box.upper.y : box.lower.y,
+                      (i & 4) != 0 ? box.upper.z : box.lower.z},
+                     0);
     return out;
 }
 
@@ -305,6 +435,8 @@ struct Accel::State {
     std::vector<std::uint32_t> object_of;  ///< by id of a top-level geometry
     std::vector<bool> is_instance;         ///< by id of a top-level geometry
     std::optional<Boxes> boxes;            ///< around objects that most rays miss
+    /// Of what has an end, where something has none; else Embree knows.
+    std::optional<Box3f> bounds;
     bool empty = true;
 
     ScenePtr new_scene() const {
@@ -397,6 +529,14 @@ Accel::Accel(std::span<const AccelObject> objects, const std::string& isa, bool 
         }
     }
     s.commit(s.top.get());
+    const auto endless = [](const AccelObject& object) {
+        const auto* shape = std::get_if<SimpleShape>(&object.geometry->data);
+        return shape != nullptr && shape->kind == SimpleShape::Kind::Plane;
+    };
+    if (std::none_of(objects.begin(), objects.end(), endless)) return;
+    s.bounds.emplace();
+    for (const AccelObject& object : objects)
+        if (object.mask != 0) s.bounds->grow(bounds_of(object));
 }
 
 Accel::~Accel() = default;
@@ -427,6 +567,7 @@ bool Accel::occluded(const Ray& ray, std::uint32_t mask) const noexcept {
 
 Box3f Accel::bounds() const {
     if (state_->empty) return {};
+    if (state_->bounds) return *state_->bounds;
     RTCBounds b;
     rtcGetSceneBounds(state_->top.get(), &b);
     return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};

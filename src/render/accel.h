@@ -39,7 +39,7 @@ class Accel {
     [[nodiscard]] bool intersect(const Ray& ray, std::uint32_t mask, RayHit& hit) const noexcept;
     /// Whether anything lies between t_min and t_max.
     [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t mask) const noexcept;
-    /// Bounds of everything, over the whole shutter; empty if there is nothing.
+    /// Bounds of everything that has an end (planes have none), over the whole shutter; empty if there is nothing.
     [[nodiscard]] Box3f bounds() const;
     [[nodiscard]] bool empty() const;
 

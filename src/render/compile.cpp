@@ -250,6 +250,8 @@ void Compiler::summarize_scene() {
             s.n_triangles += mesh->indices.size() / 3;
         if (const auto* spheres = std::get_if<SphereList>(&object.geometry->data))
             s.n_spheres += spheres->radii.size();
+        if (const auto* points = std::get_if<PointList>(&object.geometry->data))
+            s.n_spheres += points->mode == PointList::Mode::Sphere ? points->index.size() : 0;
     }
     s.n_lights = scene_->lights.size();
     s.n_shaders = scene_->shaders.size();

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "render/compiler.h"
 #include "render/shade_services.h"
+#include "render/turning.h"
 
 namespace lightsieve {
 namespace {
@@ -24,14 +26,42 @@ std::uint32_t hash_name(std::string_view name) {
 
 Shutter shutter_of(const RenderSettings& s) { return {s.shutter_start, s.shutter_end}; }
 
-std::vector<Mat4f> matrices_over_shutter(const ShapeCommon& common, Shutter shutter) {
+/// Placement over the shutter. `center`: what TransformType::RotateAboutCenter turns about, object space.
+std::vector<Mat4f> matrices_over_shutter(const ShapeCommon& common, Shutter shutter,
+                                         Vec3f center) {
     if (common.matrix.empty() || common.matrix.n == 0) return {Mat4f{}};
     // A matrix array of n elements and one key means n keys, too: that is how they are written.
     const std::size_t n = std::size_t{common.matrix.n} * common.matrix.n_keys;
-    const std::span<const Mat4f> keys(common.matrix.data, n);
+    const std::vector<Mat4f> keys =
+        turning_keys(std::span<const Mat4f>(common.matrix.data, n), common.transform_type, center);
     return keys_over_shutter<Mat4f>(
         keys, {common.motion_start, common.motion_end}, shutter,
         [](const Mat4f& a, const Mat4f& b, float t) { return lerp(a, b, t); });
+}
+
+bool turns_about_center(const ShapeCommon& common) {
+    return std::size_t{common.matrix.n} * common.matrix.n_keys > 1 &&
+           common.transform_type == TransformType::RotateAboutCenter;
+}
+
+/// The middle of a geometry's bounds at the first key, object space; radii do not count.
+Vec3f center_of(const ShapeGeometry& geometry) {
+    Box3f box;
+    const auto grow = [&](const std::vector<std::vector<Vec3f>>& keys) {
+        if (keys.empty()) return;
+        for (const Vec3f p : keys[0])
+            box.grow(p);
+    };
+    if (const auto* mesh = std::get_if<TriangleMesh>(&geometry.data)) grow(mesh->positions);
+    if (const auto* spheres = std::get_if<SphereList>(&geometry.data)) grow(spheres->centers);
+    if (const auto* curves = std::get_if<CurveList>(&geometry.data)) grow(curves->points);
+    if (const auto* points = std::get_if<PointList>(&geometry.data)) grow(points->centers);
+    if (const auto* shape = std::get_if<SimpleShape>(&geometry.data)) {
+        box.grow(shape->base);
+        if (shape->kind == SimpleShape::Kind::Mantle)
+            box.grow(shape->base + shape->axis * shape->height);
+    }
+    return box.empty() ? Vec3f{} : box.center();
 }
 
 /// outer applied after inner, key by key.
@@ -51,6 +81,53 @@ std::vector<Mat4f> compose(const std::vector<Mat4f>& inner, const std::vector<Ma
     return out;
 }
 
+bool shows_nothing(const TriangleMesh& g) { return g.indices.empty() || g.positions.empty(); }
+bool shows_nothing(const SphereList& g) { return g.radii.empty() || g.centers.empty(); }
+bool shows_nothing(const CurveList& g) { return g.segments.empty(); }
+bool shows_nothing(const PointList& g) { return g.index.empty(); }
+bool shows_nothing(const SimpleShape& /*g*/) { return false; }
+
+std::vector<float> blend_numbers(const std::vector<float>& a, const std::vector<float>& b,
+                                 float t) {
+    std::vector<float> out(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        out[i] = std::lerp(a[i], b[i], t);
+    return out;
+}
+
+/// What options say about subdivision.
+struct FinenessLimits {
+    bool none = false;  ///< ignore_subdivision
+    std::int32_t most = 255;
+    NodeRef dicing_camera;  ///< of meshes that name none
+};
+
+/// The parameters of a shape after what options say about subdivision: a copy if they differ from what is written.
+class LimitedBlock {
+  public:
+    LimitedBlock(const NodeInstance& node, const FinenessLimits& limits) : block_(node.block()) {
+        const ParamInfo* steps = node.type().find("subdiv_iterations");
+        const ParamInfo* camera = node.type().find("subdiv_dicing_camera");
+        if (steps == nullptr || camera == nullptr) return;
+        copy_.resize(node.type().block_size / sizeof(Unit) + 1);
+        std::memcpy(copy_.data(), block_, node.type().block_size);
+        auto* bytes = reinterpret_cast<std::byte*>(copy_.data());
+        auto* n = reinterpret_cast<std::uint8_t*>(bytes + steps->offset);
+        *n = static_cast<std::uint8_t>(std::clamp(limits.none ? 0 : limits.most, 0, int{*n}));
+        auto* ref = reinterpret_cast<NodeRef*>(bytes + camera->offset);
+        if (!*ref) *ref = limits.dicing_camera;
+        block_ = bytes;
+    }
+    [[nodiscard]] const void* get() const { return block_; }
+
+  private:
+    struct alignas(16) Unit {
+        std::byte bytes[16];
+    };
+    const void* block_;
+    std::vector<Unit> copy_;
+};
+
 }  // namespace
 
 void Compiler::make_shapes() {
@@ -62,19 +139,15 @@ void Compiler::make_shapes() {
 std::unique_ptr<ShapeGeometry> Compiler::geometry_of(const NodeInstance& node) {
     if (node.type().make_geometry == nullptr) return nullptr;
     CompileContext context(*this, &node, node.name());
-    std::unique_ptr<ShapeGeometry> geometry = node.type().make_geometry(node.block(), context);
+    const FinenessLimits limits{option("ignore_subdivision", false),
+                                option<std::int32_t>("max_subdivisions", 255),
+                                option<NodeRef>("subdiv_dicing_camera", {})};
+    const LimitedBlock block(node, limits);
+    std::unique_ptr<ShapeGeometry> geometry = node.type().make_geometry(block.get(), context);
     if (!geometry || geometry->instance_of) return geometry;
-    const bool empty = std::visit(
-        [](const auto& g) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(g)>, TriangleMesh>)
-                return g.indices.empty() || g.positions.empty();
-            else if constexpr (std::is_same_v<std::decay_t<decltype(g)>, CurveList>)
-                return g.segments.empty();
-            else
-                return g.radii.empty() || g.centers.empty();
-        },
-        geometry->data);
-    return empty ? nullptr : std::move(geometry);
+    if (std::visit([](const auto& g) { return shows_nothing(g); }, geometry->data)) return nullptr;
+    displace(node, *geometry);
+    return geometry;
 }
 
 void Compiler::resample_motion(ShapeGeometry& geometry, MotionRange range) const {
@@ -90,6 +163,10 @@ void Compiler::resample_motion(ShapeGeometry& geometry, MotionRange range) const
                 return out;
             });
     };
+    const auto resample_numbers = [&](std::vector<std::vector<float>>& keys) {
+        if (keys.size() > 1)
+            keys = keys_over_shutter<std::vector<float>>(keys, range, shutter, blend_numbers);
+    };
     if (auto* mesh = std::get_if<TriangleMesh>(&geometry.data)) {
         resample(mesh->positions);
         resample(mesh->normals);
@@ -97,15 +174,10 @@ void Compiler::resample_motion(ShapeGeometry& geometry, MotionRange range) const
         resample(spheres->centers);
     } else if (auto* curves = std::get_if<CurveList>(&geometry.data)) {
         resample(curves->points);
-        if (curves->radii.size() > 1)
-            curves->radii = keys_over_shutter<std::vector<float>>(
-                curves->radii, range, shutter,
-                [](const std::vector<float>& a, const std::vector<float>& b, float t) {
-                    std::vector<float> out(a.size());
-                    for (std::size_t i = 0; i < a.size(); ++i)
-                        out[i] = std::lerp(a[i], b[i], t);
-                    return out;
-                });
+        resample_numbers(curves->radii);
+    } else if (auto* points = std::get_if<PointList>(&geometry.data)) {
+        resample(points->centers);
+        resample_numbers(points->radii);
     }
 }
 
@@ -121,12 +193,26 @@ const ShapeGeometry* Compiler::shared_geometry(const NodeInstance& node) {
     return geometry_by_node_[&node] = out;
 }
 
+/// The matrices of a shape and of the instances around it, given from the outermost inward, over the shutter.
+std::vector<Mat4f> Compiler::placement_of(const std::vector<const ShapeCommon*>& moved_by,
+                                          const ShapeGeometry& geometry) const {
+    Vec3f center;
+    if (std::any_of(moved_by.begin(), moved_by.end(),
+                    [](const ShapeCommon* c) { return turns_about_center(*c); }))
+        center = center_of(geometry);
+    std::vector<Mat4f> out{Mat4f{}};
+    for (std::size_t i = moved_by.size(); i-- > 0;)
+        out = compose(out, matrices_over_shutter(*moved_by[i], shutter_of(scene_->settings),
+                                                 out[0].point(center)));
+    return out;
+}
+
 void Compiler::place_shape(const NodeInstance& node) {
     const ShapeCommon& common = *node.type().shape_common(node.block());
     if (common.visibility == 0) return;
     // Follow instances to the shape that has geometry; nested ones are flattened.
-    const Shutter shutter = shutter_of(scene_->settings);
-    std::vector<Mat4f> placement = matrices_over_shutter(common, shutter);
+    std::vector<const ShapeCommon*> moved_by;  // from the outermost inward
+    moved_by.push_back(&common);
     const NodeInstance* source = &node;
     const ShapeGeometry* geometry = shared_geometry(node);
     for (int depth = 0; geometry != nullptr && geometry->instance_of; ++depth) {
@@ -142,12 +228,11 @@ void Compiler::place_shape(const NodeInstance& node) {
                                           source->type().name.str() + ", not a shape",
                                       node.where("node"));
         if (geometry->inherit_xform)
-            placement = compose(
-                matrices_over_shutter(*source->type().shape_common(source->block()), shutter),
-                placement);
+            moved_by.push_back(source->type().shape_common(source->block()));
         geometry = shared_geometry(*source);
     }
     if (geometry == nullptr) return;
+    const std::vector<Mat4f> placement = placement_of(moved_by, *geometry);
 
     SceneObject object;
     object.geometry = geometry;
@@ -176,6 +261,8 @@ void Compiler::place_shape(const NodeInstance& node) {
     object.name = node.name();
     object.node = &node;
     object.services = scene_->services.get();
+    if (const auto found = bumps_.find(source); found != bumps_.end())
+        object.bumps = found->second;
     object.id = own("id").id != 0 ? own("id").id : hash_name(node.name().view());
     object.visibility = common.visibility;
     object.sidedness = own("sidedness").sidedness;

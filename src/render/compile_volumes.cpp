@@ -17,6 +17,14 @@ bool ends_with(std::string_view text, std::string_view end) {
     return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
+/// Whether a shape parts what is inside of it from what is outside. Of meshes nobody knows.
+bool is_closed(const decltype(ShapeGeometry::data)& data) {
+    const auto* points = std::get_if<PointList>(&data);
+    return std::holds_alternative<TriangleMesh>(data) ||
+           std::holds_alternative<SphereList>(data) ||
+           (points != nullptr && points->mode == PointList::Mode::Sphere);
+}
+
 }  // namespace
 
 bool Compiler::add_volume(const NodeInstance& node, const NodeInstance& source,
@@ -34,11 +42,12 @@ bool Compiler::add_volume(const NodeInstance& node, const NodeInstance& source,
             "assign a standard_volume" + std::string(is_volume ? "" : ", or set step_size to 0"));
         return is_volume;
     }
-    if (std::holds_alternative<CurveList>(object.geometry->data)) {
-        diagnostics_.warning(
-            Code::ShapeBad,
-            "curves have no inside: the volume of \"" + node.name().str() + "\" is left out",
-            node.where("step_size"));
+    if (!is_closed(object.geometry->data)) {
+        diagnostics_.warning(Code::ShapeBad,
+                             "shapes of type " + source.type().name.str() +
+                                 " have no inside: the volume of \"" + node.name().str() +
+                                 "\" is left out",
+                             node.where("step_size"));
         return true;
     }
     if (object.matte)

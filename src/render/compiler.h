@@ -77,6 +77,8 @@ class Compiler {
     // compile_shapes.cpp
     void make_shapes();
     void place_shape(const NodeInstance& node);
+    [[nodiscard]] std::vector<Mat4f> placement_of(const std::vector<const ShapeCommon*>& moved_by,
+                                                  const ShapeGeometry& geometry) const;
     [[nodiscard]] const ShapeGeometry* shared_geometry(const NodeInstance& node);
     [[nodiscard]] std::vector<const ShaderProgram*> shaders_of(const NodeInstance& node,
                                                                const NodeInstance& source);
@@ -90,6 +92,12 @@ class Compiler {
                     float step_size);
     void check_channels(const NodeInstance& node, const SceneVolume& volume);
     void resample_motion(ShapeGeometry& geometry, MotionRange range) const;
+
+    // compile_displacement.cpp
+    /// Moves the vertices of a mesh whose node has a disp_map.
+    void displace(const NodeInstance& node, ShapeGeometry& geometry);
+    [[nodiscard]] const ShaderProgram* displacement_program(const NodeInstance& node,
+                                                            const NodeRef& ref);
 
     // compile_lights.cpp
     void make_lights();
@@ -133,6 +141,7 @@ class Compiler {
     std::set<const NodeInstance*> failed_shaders_;
     std::map<const NodeInstance*, const ShapeGeometry*> geometry_by_node_;
     std::map<const NodeInstance*, std::vector<std::uint32_t>> lights_of_node_;
+    std::map<const NodeInstance*, const DisplacementMap*> bumps_;  ///< of displaced meshes
     std::map<std::vector<std::uint32_t>, const LightSampler*> samplers_by_group_;
     std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
     std::map<Event, std::uint32_t> event_index_;

@@ -119,7 +119,7 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
             in_medium ? Surface(medium_vertex_)
                       : make_surface(scene_.objects[hit.object], ray, hit, path_.footprint);
         if (!in_medium) {
-            surface.at.ray_type = path_.groups[0].key.ray_type;
+            meet(surface, path_.groups[0].key.ray_type);
             const Arrival arrival = arrive(surface, ray, camera_from_world);
             if (arrival == Arrival::Ended) return;
             if (arrival == Arrival::Passed) continue;

@@ -112,7 +112,7 @@ void Integrator<Tracker>::note_behind(const Surface& front, const Mat4f& camera_
         ++counts.rays;
         if (!scene_.accel->intersect(ray, ray_bit(RayType::SpecularTransmit), hit)) return;
         surface = make_surface(scene_.objects[hit.object], ray, hit, path_.footprint);
-        surface.at.ray_type = RayType::SpecularTransmit;
+        meet(surface, RayType::SpecularTransmit);
         tell_path(surface.at, inside, surface.shader);
         shadow_closures_.begin(surface.at.wo, surface.frame);
         surface.shader->closures(surface.at, shadow_closures_);

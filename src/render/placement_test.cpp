@@ -155,5 +155,26 @@ TEST(Motion, VerticesMoveToo) {
                                 render(frame_text(16, 16, 4, camera) + same), "RGBA"));
 }
 
+TEST(Motion, ATurningPlateStaysAsLarge) {
+    // A plate that turns by half a turn about its middle, between two keys. Element by element it would pass through a line.
+    const std::string camera =
+        node("ortho_camera", "cam",
+             " position 0 2 0\n look_at 0 0 0\n up 0 0 -1\n screen_window_min -2 -2\n "
+             "screen_window_max 2 2\n shutter_start 0\n shutter_end 1");
+    const auto turned = [&](const char* type) {
+        return render(frame_text(16, 16, 8, camera) + node("flat", "glow", " color 1 1 1") +
+                      quad("plate", {1, 0, -1}, {1, 0, 1}, {3, 0, 1}, {3, 0, -1}, "glow",
+                           std::string(" matrix 1 2 MATRIX 1 0 0 0 0 1 0 0 0 0 1 0 -2 0 0 1  -1 0 "
+                                       "0 0 0 1 0 0 0 0 -1 0 2 0 0 1\n transform_type ") +
+                               type))
+            .mean_alpha("RGBA");
+    };
+    // A square of side 2 in a window of 4 covers a quarter all the time.
+    EXPECT_NEAR(turned("rotate_about_center"), 0.25, 5e-3);
+    EXPECT_NEAR(turned("linear"), 0.25 / 3, 0.01);
+    // About the origin, which lies beside the plate, it swings out of the window and back.
+    EXPECT_LT(turned("rotate_about_origin"), 0.24);
+}
+
 }  // namespace
 }  // namespace lightsieve::testing

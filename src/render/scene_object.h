@@ -11,10 +11,11 @@
 
 namespace lightsieve {
 
-class LightSampler;   // render/light_sampler.h
-class NodeInstance;   // scene/graph.h
-class ShadeServices;  // scene/shade_services.h
-class ShaderProgram;  // render/shader_program.h
+class DisplacementMap;  // render/displacement.h
+class LightSampler;     // render/light_sampler.h
+class NodeInstance;     // scene/graph.h
+class ShadeServices;    // scene/shade_services.h
+class ShaderProgram;    // render/shader_program.h
 
 struct SceneObject {
     const ShapeGeometry* geometry = nullptr;
@@ -28,6 +29,7 @@ struct SceneObject {
     /// The shape or instance in the graph, which outlives the scene: user data.
     const NodeInstance* node = nullptr;
     const ShadeServices* services = nullptr;  ///< for shaders
+    const DisplacementMap* bumps = nullptr;   ///< displacement that shows as bumps; null: none
     std::uint32_t id = 0;
     std::uint8_t visibility = 255, sidedness = 255;
     bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;

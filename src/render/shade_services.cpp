@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "render/surface.h"
+#include "scene/mesh_origin.h"
 
 namespace lightsieve {
 namespace {
@@ -77,9 +78,40 @@ struct SceneServices::Found {
 
 /// The values that meet at a point, and their shares.
 struct SceneServices::Spot {
-    std::array<std::size_t, 3> index{};
-    std::array<float, 3> weight{1, 0, 0};
+    /// One place.
+    struct Part {
+        std::size_t index = 0;
+        float weight = 1;
+    };
+    /// Up to three corners of a triangle. Of subdivided meshes: the corners of the face, which may be many; then `mesh` is
+    /// set, and for_each asks it.
+    std::array<Part, 3> parts{};
     std::size_t n = 1;
+    const TriangleMesh* mesh = nullptr;
+    std::size_t triangle = 0;
+    std::array<float, 3> weights{};
+    const UserData* data = nullptr;  ///< of a subdivided mesh
+
+    /// Calls `body(index, weight)` for every value.
+    template <class Body>
+    void for_each(const Body& body) const {
+        if (mesh == nullptr) {
+            for (std::size_t i = 0; i < n; ++i)
+                body(parts[i].index, parts[i].weight);
+            return;
+        }
+        const MeshOrigin& origin = *mesh->origin;
+        for_each_share(origin, triangle, weights, [&](std::size_t slot, float share) {
+            body(data->user_class == UserDataClass::Varying ? std::size_t{origin.vertex[slot]}
+                                                            : at_corner(origin.corner[slot]),
+                 share);
+        });
+    }
+
+  private:
+    [[nodiscard]] std::size_t at_corner(std::size_t corner) const {
+        return corner < data->indices.n ? data->indices[corner] : data->n;
+    }
 };
 
 void SceneServices::prepare(const NodeInstance& shape) {
@@ -117,9 +149,7 @@ bool SceneServices::spot_of(const ShadePoint& at, const Found& found, Spot& out)
     out = {};
     switch (data.user_class) {
         case UserDataClass::Constant: break;
-        case UserDataClass::Uniform:
-            out.index[0] = mesh != nullptr || curves != nullptr ? at.face : at.primitive;
-            break;
+        case UserDataClass::Uniform: out.parts[0].index = at.face; break;
         case UserDataClass::Varying:
         case UserDataClass::Indexed: {
             if (curves != nullptr) {
@@ -139,11 +169,22 @@ bool SceneServices::spot_of(const ShadePoint& at, const Found& found, Spot& out)
                     std::clamp(at.curve_uv.y, 0.0F, 1.0F) * static_cast<float>(n - 1);
                 const auto i = std::min(static_cast<std::size_t>(place), n > 1 ? n - 2 : 0);
                 const float f = place - static_cast<float>(i);
-                out = {{first + i, first + std::min(i + 1, n - 1), 0}, {1 - f, f, 0}, 2};
+                out.parts[0] = {first + i, 1 - f};
+                out.parts[1] = {first + std::min(i + 1, n - 1), f};
+                out.n = 2;
                 break;
             }
             if (mesh == nullptr) {
-                out.index[0] = at.primitive;
+                out.parts[0].index = at.face;
+                break;
+            }
+            const Vec2f b = at.barycentric;
+            const std::array<float, 3> weights{1 - b.x - b.y, b.x, b.y};
+            if (mesh->origin) {
+                out.mesh = mesh;
+                out.triangle = at.primitive;
+                out.weights = weights;
+                out.data = &data;
                 break;
             }
             const std::vector<std::uint32_t>& corners =
@@ -151,19 +192,20 @@ bool SceneServices::spot_of(const ShadePoint& at, const Found& found, Spot& out)
             const std::size_t t = std::size_t{at.primitive} * 3;
             if (t + 2 >= corners.size()) return false;
             for (std::size_t i = 0; i < 3; ++i) {
-                out.index[i] = corners[t + i];
+                std::size_t& index = out.parts[i].index;
+                index = corners[t + i];
+                out.parts[i].weight = weights[i];
                 if (data.user_class != UserDataClass::Indexed) continue;
-                if (out.index[i] >= data.indices.n) return false;
-                out.index[i] = data.indices[out.index[i]];
+                if (index >= data.indices.n) return false;
+                index = data.indices[index];
             }
-            const Vec2f b = at.barycentric;
-            out.weight = {1 - b.x - b.y, b.x, b.y};
             out.n = 3;
             break;
         }
     }
-    return std::all_of(out.index.begin(), out.index.begin() + static_cast<std::ptrdiff_t>(out.n),
-                       [&](std::size_t i) { return i < data.n; });
+    bool fits = true;
+    out.for_each([&](std::size_t i, float) { fits &= i < data.n; });
+    return fits;
 }
 
 bool SceneServices::user_value(const ShadePoint& at, Name name, ShaderValue& out) const {
@@ -172,11 +214,11 @@ bool SceneServices::user_value(const ShadePoint& at, Name name, ShaderValue& out
     if (found.data == nullptr || !is_number(found.data->type) || !spot_of(at, found, spot))
         return false;
     out = {kBlack, 0};
-    for (std::size_t i = 0; i < spot.n; ++i) {
-        const ShaderValue v = number_at(*found.data, spot.index[i]);
-        out.rgb += v.rgb * spot.weight[i];
-        out.a += v.a * spot.weight[i];
-    }
+    spot.for_each([&](std::size_t i, float weight) {
+        const ShaderValue v = number_at(*found.data, i);
+        out.rgb += v.rgb * weight;
+        out.a += v.a * weight;
+    });
     return true;
 }
 
@@ -186,9 +228,13 @@ bool SceneServices::user_text(const ShadePoint& at, Name name, Name& out) const 
     if (found.data == nullptr || found.data->type != ParamType::String ||
         !spot_of(at, found, spot))
         return false;
-    const auto largest = std::max_element(spot.weight.begin(), spot.weight.end());
-    out = static_cast<const Name*>(
-        found.data->data)[spot.index[static_cast<std::size_t>(largest - spot.weight.begin())]];
+    std::size_t index = 0;
+    float most = -1;
+    spot.for_each([&](std::size_t i, float weight) {
+        if (weight > most) index = i;
+        most = std::max(most, weight);
+    });
+    out = static_cast<const Name*>(found.data->data)[index];
     return true;
 }
 
@@ -198,17 +244,29 @@ bool SceneServices::uv_set(const ShadePoint& at, Name name, UvPoint& out) const 
     if (found.data == nullptr || found.data->type != ParamType::Vector2 ||
         !spot_of(at, found, spot))
         return false;
-    const auto* values = static_cast<const Vec2f*>(found.data->data);
+    const auto blend = [&](const Spot& where) {
+        const auto* values = static_cast<const Vec2f*>(found.data->data);
+        Vec2f sum;
+        where.for_each([&](std::size_t i, float weight) { sum = sum + values[i] * weight; });
+        return sum;
+    };
     out = {};
-    for (std::size_t i = 0; i < spot.n; ++i)
-        out.uv = out.uv + values[spot.index[i]] * spot.weight[i];
+    out.uv = blend(spot);
     Triangle corners;
-    if (spot.n != 3 || !triangle(at, corners)) return true;
+    if ((spot.n != 3 && spot.mesh == nullptr) || !triangle(at, corners)) return true;
+    std::array<Vec2f, 3> uv;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Spot corner = spot;
+        corner.weights = {};
+        corner.weights[i] = 1;
+        for (std::size_t k = 0; k < 3; ++k)
+            corner.parts[k].weight = k == i ? 1.0F : 0.0F;
+        uv[i] = blend(corner);
+    }
     // As for the first set: both derivatives from the corners.
     const Vec3f e1 = corners.corners[1] - corners.corners[0],
                 e2 = corners.corners[2] - corners.corners[0];
-    const Vec2f d1 = values[spot.index[1]] - values[spot.index[0]],
-                d2 = values[spot.index[2]] - values[spot.index[0]];
+    const Vec2f d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
     const float det = d1.x * d2.y - d1.y * d2.x, twice_area = length(cross(e1, e2));
     if (det == 0 || !(twice_area > 0)) return true;
     out.dp_du = (e1 * d2.y - e2 * d1.y) / det;
@@ -238,6 +296,11 @@ bool SceneServices::triangle(const ShadePoint& at, Triangle& out) const {
     const std::array<Vec3f, 3> local = triangle_corners(*mesh, at.primitive, at.time);
     for (std::size_t i = 0; i < 3; ++i)
         out.corners[i] = place.point(local[i]);
+    if (mesh->origin) {
+        // Quads: the edge that their two triangles share is none of theirs.
+        out.polygon_edge[at.primitive % 2 == 0 ? 2 : 0] = false;
+        return true;
+    }
     const std::size_t t = std::size_t{at.primitive} * 3;
     if (mesh->face.empty() || t + 2 >= mesh->corner.size()) return true;
     // The polygon's corners, from all of its triangles, which stand together.

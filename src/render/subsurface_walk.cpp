@@ -120,14 +120,20 @@ class Walk {
     Color throughput_ = kWhite;
 };
 
+bool has_inside(const ShapeGeometry& geometry) {
+    const auto* points = std::get_if<PointList>(&geometry.data);
+    return !std::holds_alternative<CurveList>(geometry.data) &&
+           (points == nullptr || points->mode == PointList::Mode::Sphere);
+}
+
 }  // namespace
 
 std::optional<WalkExit> walk_below(const Scene& scene, const Surface& entry,
                                    const SubsurfaceMedium& medium, Vec2f u_entry,
                                    const Sampler& sampler, std::uint32_t stream,
                                    std::uint64_t& n_rays) {
-    // A strand is too thin to have an inside: light comes out where it went in.
-    if (std::holds_alternative<CurveList>(entry.object->geometry->data))
+    // A strand or a flat particle is too thin to have an inside: light comes out where it went in.
+    if (!has_inside(*entry.object->geometry))
         return WalkExit{entry, entry.outward, entry.at.normal, medium.reflectance};
     return Walk(scene, entry, medium, sampler, stream, n_rays).run(u_entry);
 }

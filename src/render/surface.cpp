@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "render/displacement.h"
 #include "render/placement.h"
+#include "scene/simple_shape.h"
 
 namespace lightsieve {
 namespace {
@@ -105,9 +107,7 @@ LocalPoint resolve(const TriangleMesh& mesh, const RayHit& hit, const View& view
     return out;
 }
 
-LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const View& view) {
-    const Vec3f center = AtTime(spheres.centers, view.time)[hit.primitive];
-    const float radius = spheres.radii[hit.primitive];
+LocalPoint on_sphere(Vec3f center, float radius, const View& view) {
     const Vec3f n = normalize(view.place.object_from_world.point(view.along) - center);
     LocalPoint out;
     out.position = center + n * radius;  // back onto the sphere: t is only as good as a float
@@ -120,6 +120,50 @@ LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const View& vie
     out.uv_du = out.dp_du * (2 * kPi * radius);
     if (level > 0)
         out.uv_dv = Vec3f{-n.y * n.x / level, level, -n.y * n.z / level} * (kPi * radius);
+    return out;
+}
+
+LocalPoint resolve(const SphereList& spheres, const RayHit& hit, const View& view) {
+    return on_sphere(AtTime(spheres.centers, view.time)[hit.primitive],
+                     spheres.radii[hit.primitive], view);
+}
+
+LocalPoint resolve(const PointList& points, const RayHit& hit, const View& view) {
+    const Vec3f center = AtTime(points.centers, view.time)[hit.primitive];
+    const KeyBlend k = blend_at(points.radii.size(), view.time);
+    const float radius = std::lerp(points.radii[k.first][hit.primitive],
+                                   points.radii[k.second][hit.primitive], k.f);
+    LocalPoint out;
+    if (points.mode == PointList::Mode::Sphere) {
+        out = on_sphere(center, radius, view);
+    } else {
+        // Flat, across the ray; uv are those of the square around it.
+        const FacingQuad quad = quad_of(points, hit.primitive, center, radius);
+        const Mat4f& to_object = view.place.object_from_world;
+        const Frame frame = facing_frame(quad, -to_object.vector(view.wo));
+        const Vec3f from_center = to_object.point(view.along) - center;
+        const float x = dot(from_center, frame.x), y = dot(from_center, frame.y);
+        out.position = center + frame.x * x + frame.y * y;
+        out.geometric_normal = frame.z;
+        out.dp_du = frame.x;
+        out.uv = {0.5F + 0.5F * x / quad.half_width, 0.5F + 0.5F * y / quad.half_height};
+        out.uv_du = frame.x * (2 * quad.half_width);
+        out.uv_dv = frame.y * (2 * quad.half_height);
+        out.uv_per_unit = 0.5F / std::min(quad.half_width, quad.half_height);
+    }
+    out.face = points.index[hit.primitive];
+    return out;
+}
+
+LocalPoint resolve(const SimpleShape& shape, const RayHit& /*hit*/, const View& view) {
+    const SimplePoint at = simple_point(shape, view.place.object_from_world.point(view.along));
+    LocalPoint out;
+    out.position = at.position;
+    out.geometric_normal = at.normal;
+    out.dp_du = out.uv_du = at.dp_du;
+    out.uv_dv = at.dp_dv;
+    out.uv = at.uv;
+    out.uv_per_unit = at.uv_per_unit;
     return out;
 }
 
@@ -304,6 +348,11 @@ Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hi
     return with_placement(object, ray.time, [&](const Placement& place) {
         return surface_at(place, object, ray, hit, footprint);
     });
+}
+
+void meet(Surface& surface, RayType type) {
+    surface.at.ray_type = type;
+    if (surface.object->bumps != nullptr) surface.object->bumps->bump(surface);
 }
 
 LightHit make_light_hit(const SceneObject& object, const Ray& ray, const RayHit& hit) {

@@ -36,6 +36,9 @@ struct Footprint {
 [[nodiscard]] Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hit,
                                    const Footprint& footprint);
 
+/// Tells a surface which type of ray met it, and turns its normal where such rays see displacement as bumps.
+void meet(Surface& surface, RayType type);
+
 /// The same as far as lights need it: position, outward normal as modelled, uv.
 [[nodiscard]] LightHit make_light_hit(const SceneObject& object, const Ray& ray,
                                       const RayHit& hit);

@@ -3,12 +3,20 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "scene/value.h"
 
 namespace lightsieve {
+
+/// How matrices between motion keys are found.
+enum class TransformType : std::int32_t {
+    Linear,             ///< element by element
+    RotateAboutOrigin,  ///< turned about the origin of object space, which moves straight
+    RotateAboutCenter   ///< turned about the middle of the shape's bounds, which moves straight
+};
 
 /// Parameters of every shape node; `describe_shape_common` (nodes/shape/shape_common.h) documents them.
 struct ShapeCommon {
@@ -17,6 +25,7 @@ struct ShapeCommon {
         255;  ///< RayType bits for which both sides exist; others pass through back faces
     Array<NodeRef> shader;  ///< one, or one for each value of shidxs
     Array<Mat4f> matrix;    ///< world_from_object, one a motion key
+    TransformType transform_type = TransformType::RotateAboutCenter;
     float motion_start = 0, motion_end = 1;
     bool receive_shadows = true, self_shadows = true, matte = false, invert_normals = false;
     bool opaque = true;  ///< deprecated, without effect
@@ -29,6 +38,31 @@ struct ShapeCommon {
     Array<NodeRef> light_group, shadow_group;
     Array<Name> trace_sets;
     Array<NodeRef> disp_map;
+};
+
+/// Where the quads of a subdivided mesh lie in the faces that it was made of: user data are given there.
+///
+/// A face of four corners holds a grid of quads; every other face of n corners is parted into n quarters, one a corner,
+/// which hold a grid each. Quads keep their orientation: corner k of a quad lies toward corner k of the grid.
+struct MeshOrigin {
+    // The faces. Polygons with holes were split into triangles first.
+    std::vector<std::uint32_t> first_corner;  ///< of each face in the next two, and the end
+    std::vector<std::uint32_t> corner;        ///< face corner: position in vidxs
+    std::vector<std::uint32_t> vertex;        ///< its vertex
+    // The quads, two triangles each: of corners 0 1 2 and 0 2 3.
+    std::vector<std::uint32_t> face;     ///< of each quad
+    std::vector<std::uint32_t> quarter;  ///< of each quad; 0 in faces of four corners
+    std::vector<Vec2f>
+        place;  ///< of each quad: its corner 0 in the grid, whose corners are at 0 0, 1 0, 1 1, 0 1
+    /// Length of a quad's edge in the grid: of faces with four corners, and of others.
+    float size_in_quads = 1, size_in_others = 1;
+};
+
+/// What a displacement does to a mesh beside disp_map, which is a shader.
+struct Displacement {
+    float height = 1, zero_value = 0;
+    bool autobump = false;
+    std::uint8_t autobump_visibility = 1;  ///< RayType bits that see the finer part as bumps
 };
 
 /// Triangles made of polygons. All index arrays have three entries a triangle.
@@ -44,9 +78,12 @@ struct TriangleMesh {
     std::vector<std::uint32_t>
         corner;  ///< face corner (position in vidxs) of each triangle corner
     std::vector<std::uint8_t> shader_index;  ///< into `shader`, one a triangle; empty: all 0
+    /// Of a subdivided mesh, whose `corner` is empty and whose triangles come in pairs, one a quad; null: of others.
+    std::shared_ptr<const MeshOrigin> origin;
+    std::optional<Displacement> displacement;  ///< disp_map is to move the vertices
 };
 
-/// Spheres, exact.
+/// Spheres, exact. Lights have no other.
 struct SphereList {
     std::vector<std::vector<Vec3f>> centers;  ///< one list a motion key
     std::vector<float> radii;
@@ -77,10 +114,37 @@ struct CurveList {
     [[nodiscard]] std::uint32_t n_controls() const { return linear ? 2 : 4; }
 };
 
+/// Particles. Disks and quads are flat and always turned to where the ray comes from.
+struct PointList {
+    enum class Mode : std::uint8_t { Disk, Sphere, Quad };
+    Mode mode = Mode::Disk;
+    std::vector<std::vector<Vec3f>> centers;  ///< one list a motion key
+    std::vector<std::vector<float>> radii;  ///< as many keys as centers; of quads half their width
+    std::vector<float> aspect;              ///< width by height; quads only
+    std::vector<float> rotation_rad;   ///< counter-clockwise as seen, away from `up`; quads only
+    std::vector<std::uint32_t> index;  ///< number of each point in the node
+    Vec3f up{0, 1, 0};                 ///< upward edges of quads lean to it; object space
+};
+
+/// One exact part of a cone, a disk or a plane; scene/simple_shape.h has its geometry.
+struct SimpleShape {
+    enum class Kind : std::uint8_t {
+        Mantle,  ///< side of a cone or cylinder from `base` to `base + axis * height`; open ends
+        Disk,    ///< around `base`, facing `axis`
+        Plane    ///< through `base`, facing `axis`, without end
+    };
+    Kind kind = Kind::Mantle;
+    Vec3f base;
+    Vec3f axis{0, 1, 0};  ///< unit
+    float height = 1;     ///< Mantle
+    /// Mantle: at the base and at the top; Disk: of the rim and of the hole.
+    float radius = 0.5F, second_radius = 0.5F;
+};
+
 class VolumeGrids;  // io/volume_grid.h
 
 struct ShapeGeometry {
-    std::variant<TriangleMesh, SphereList, CurveList> data;
+    std::variant<TriangleMesh, SphereList, CurveList, PointList, SimpleShape> data;
     /// The geometry is the boundary of a volume. A box's mesh is one; it is known to be a box.
     bool is_volume = false;
     Box3f volume_box;                          ///< object space; empty: the geometry is no box

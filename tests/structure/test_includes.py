@@ -31,6 +31,7 @@ LIBRARIES = {
     "OpenImageIO": (r"OpenImageIO/", r"io/(texture|image)\w*\.(cpp|h)"),
     "OpenVDB": (r"openvdb/|nanovdb/util/", r"vdb_reader/.*"),
     "NanoVDB": (r"nanovdb/NanoVDB\.h", r"io/volume_tree\.(cpp|h)"),
+    "OpenSubdiv": (r"opensubdiv/", r"nodes/common/subdivision\.cpp"),
     "Embree": (r"embree", r"render/accel\w*\.(cpp|h)"),
     "zlib": (r"zlib\.h", r"scene/(ass_\w+|\w+_test)\.cpp"),
     "fmt": (r"fmt/", r"(io|scene|nodes|render)/.*"),

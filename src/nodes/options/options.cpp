@@ -228,8 +228,7 @@ void describe_nodes(Describe<Options>& d) {
             "Colour configuration; the rendering space is ACEScg.")
         .ignored();
     d.param("subdiv_dicing_camera", &Options::subdiv_dicing_camera,
-            "Camera for adaptive subdivision; acts with subdivision.")
-        .ignored();
+            "Camera for adaptive subdivision of meshes that name none.");
 }
 
 void describe_switches(Describe<Options>& d) {
@@ -256,12 +255,8 @@ void describe_switches(Describe<Options>& d) {
     d.param("ignore_atmosphere", &Options::ignore_atmosphere, "Renders without atmosphere.");
     d.param("ignore_lights", &Options::ignore_lights, "Renders without lights.").pending();
     d.param("ignore_shadows", &Options::ignore_shadows, "Renders without shadows.").pending();
-    d.param("ignore_subdivision", &Options::ignore_subdivision,
-            "Renders without subdivision; there is none yet.")
-        .ignored();
-    d.param("ignore_displacement", &Options::ignore_displacement,
-            "Renders without displacement; there is none yet.")
-        .ignored();
+    d.param("ignore_subdivision", &Options::ignore_subdivision, "Renders without subdivision.");
+    d.param("ignore_displacement", &Options::ignore_displacement, "Renders without displacement.");
     d.param("ignore_bump", &Options::ignore_bump, "Renders without bump and normal maps.")
         .pending();
     d.param("ignore_motion", &Options::ignore_motion, "Renders as if nothing had motion keys.")
@@ -352,8 +347,7 @@ void describe_machine(Describe<Options>& d) {
     d.param("gpu_sparse_textures", &Options::gpu_sparse_textures, "Arnold's textures on GPUs.")
         .ignored();
     d.param("max_subdivisions", &Options::max_subdivisions,
-            "Limit of subdivision, which is not supported yet.")
-        .ignored();
+            "Largest number of subdivision steps of any mesh.");
     d.param("curved_motionblur", &Options::curved_motionblur,
             "Motion along curves through the keys; here it is along lines.")
         .pending();

@@ -1,14 +1,15 @@
 // polymesh: polygons of any number of corners, made into triangles here.
 //
 // Files come from everywhere, so every count and index is checked before it is used. What makes the mesh meaningless
-// is an error at the parameter; what can be left out is a warning. Subdivision and displacement are not done yet: the
-// control mesh is shown, with a warning.
+// is an error at the parameter; what can be left out is a warning. Subdivision is done here, evenly over the whole mesh;
+// displacement, which needs shaders, is done by the renderer (render/compile_displacement.cpp).
 #include <fmt/format.h>
 
 #include <numeric>
 #include <unordered_map>
 
 #include "nodes/common/polygon.h"
+#include "nodes/common/refined_mesh.h"
 #include "nodes/shape/shape_common.h"
 #include "scene/node_context.h"
 
@@ -18,7 +19,6 @@ namespace {
 enum class SubdivType : std::int32_t { None, Catclark, Linear };
 enum class SubdivMetric : std::int32_t { Auto, EdgeLength, Flatness };
 enum class SubdivSpace : std::int32_t { Raster, Object };
-enum class UvSmoothing : std::int32_t { PinCorners, PinBorders, Linear, Smooth };
 
 struct Polymesh : ShapeNode {
     Array<std::uint32_t> nsides, vidxs, nidxs, uvidxs, crease_idxs, polygon_holes;
@@ -44,62 +44,60 @@ struct Polymesh : ShapeNode {
     [[nodiscard]] std::unique_ptr<ShapeGeometry> make_geometry(NodeContext& context) const;
 };
 
-void describe_later(Describe<Polymesh>& d) {
+void describe_subdivision(Describe<Polymesh>& d) {
     d.param("subdiv_type", &Polymesh::subdiv_type,
-            "Subdivision scheme; not supported yet: the control mesh is shown.")
+            "Subdivision: catclark is smooth, linear only cuts finer.")
         .names({"none", "catclark", "linear"});
     d.param("subdiv_iterations", &Polymesh::subdiv_iterations,
-            "Steps of subdivision; acts with subdiv_type.")
-        .ignored();
+            "Steps of subdivision, at most that many with subdiv_adaptive_error. Each makes four "
+            "quads of one.");
     d.param("subdiv_adaptive_error", &Polymesh::subdiv_adaptive_error,
-            "Error at which subdivision stops, 0 for all steps; acts with subdiv_type.")
-        .ignored();
+            "Error below which no more steps are made, the same number for the whole mesh; 0: all "
+            "steps.");
     d.param("subdiv_adaptive_metric", &Polymesh::subdiv_adaptive_metric,
-            "Measure of that error; acts with subdiv_type.")
-        .names({"auto", "edge_length", "flatness"})
-        .ignored();
+            "What that error is: the longest edge, or the distance to the smooth surface; auto: "
+            "edges if the mesh is displaced.")
+        .names({"auto", "edge_length", "flatness"});
     d.param("subdiv_adaptive_space", &Polymesh::subdiv_adaptive_space,
-            "Space of that error; acts with subdiv_type.")
-        .names({"raster", "object"})
-        .ignored();
+            "Whether that error is in pixels or in object space.")
+        .names({"raster", "object"});
     d.param("subdiv_uv_smoothing", &Polymesh::subdiv_uv_smoothing,
-            "Subdivision of uv; acts with subdiv_type.")
-        .names({"pin_corners", "pin_borders", "linear", "smooth"})
-        .ignored();
+            "How texture coordinates are subdivided: borders of islands keep their corners, keep "
+            "their place, everything is linear, or everything is smooth.")
+        .names({"pin_corners", "pin_borders", "linear", "smooth"});
     d.param("subdiv_smooth_derivs", &Polymesh::subdiv_smooth_derivs,
-            "Smooth tangents; acts with subdiv_type.")
-        .ignored();
+            "Tangents that turn smoothly; here they are those of the refined quads.")
+        .pending();
     d.param("subdiv_frustum_ignore", &Polymesh::subdiv_frustum_ignore,
-            "Subdivides unseen parts too; acts with subdiv_type.")
+            "Subdivides unseen parts too; here they always are.")
         .ignored();
     d.param("subdiv_dicing_camera", &Polymesh::subdiv_dicing_camera,
-            "Camera for adaptive subdivision; acts with subdiv_type.")
-        .ignored();
+            "Camera whose pixels subdiv_adaptive_error counts; none: the one of the frame.");
     d.param("crease_idxs", &Polymesh::crease_idxs,
-            "Pairs of vertices: creased edges; act with subdiv_type.")
-        .ignored();
+            "Pairs of vertices: edges that stay sharp. The same vertex twice stays pointed.");
     d.param("crease_sharpness", &Polymesh::crease_sharpness,
-            "Sharpness of each crease; acts with subdiv_type.")
-        .ignored();
+            "For how many steps each crease stays sharp; 10 and more: for all.");
+}
+
+void describe_displacement(Describe<Polymesh>& d) {
     d.param("disp_map", &ShapeCommon::disp_map,
-            "Shader that moves the surface; not supported yet: the mesh is shown as it is.");
-    d.param("disp_height", &Polymesh::disp_height,
-            "Factor on the displacement; acts with disp_map.")
-        .ignored();
-    d.param("disp_padding", &Polymesh::disp_padding, "Largest displacement; acts with disp_map.")
+            "Shader that moves the vertices: a number (the mean of a colour) along the normal, a "
+            "vector by itself, in object space. Several are chosen from by shidxs.");
+    d.param("disp_height", &Polymesh::disp_height, "Factor on the displacement.");
+    d.param("disp_padding", &Polymesh::disp_padding,
+            "Largest displacement, which is not needed here: everything is moved before rays are "
+            "traced.")
+        .unit("scene units")
         .ignored();
     d.param("disp_zero_value", &Polymesh::disp_zero_value,
-            "Value of disp_map that moves nothing; acts with disp_map.")
-        .ignored();
+            "Value of disp_map that moves nothing.");
     d.param("disp_autobump", &Polymesh::disp_autobump,
-            "Fine displacement as bump; acts with disp_map.")
-        .ignored();
+            "What of the displacement is finer than the mesh shows as bumps.");
     d.param("autobump_visibility", &Polymesh::autobump_visibility,
-            "Ray types that see that bump; acts with disp_map.")
-        .ignored();
+            "Ray types (as for visibility) that see those bumps.");
     d.param("use_shadow_terminator_fix", &Polymesh::use_shadow_terminator_fix,
-            "Arnold's cure for shadows of coarse meshes.")
-        .ignored();
+            "Arnold's cure for shadows of coarse meshes; subdivide instead.")
+        .pending();
 }
 
 NodeType Polymesh::describe() {
@@ -121,7 +119,8 @@ NodeType Polymesh::describe() {
     d.param("smoothing", &Polymesh::smoothing,
             "Shades with nlist, or with averaged normals where there is none; off: with the "
             "polygons' own.");
-    describe_later(d);
+    describe_subdivision(d);
+    describe_displacement(d);
     return d.done();
 }
 
@@ -131,7 +130,6 @@ class MeshBuilder {
     MeshBuilder(const Polymesh& mesh, NodeContext& context) : mesh_(mesh), context_(context) {}
 
     std::unique_ptr<ShapeGeometry> build() {
-        warn_pending();
         find_faces();
         check_indices(mesh_.vidxs, "vidxs", mesh_.vlist.n, "vlist");
         check_finite(mesh_.vlist, "vlist");
@@ -139,18 +137,30 @@ class MeshBuilder {
         find_holes();
         if (!ok_) return nullptr;
         if (n_faces() == 0) warning("the mesh has no polygons", "vidxs", "");
-        split_faces();
-        add_normals();
-        add_uvs();
+        const int levels = subdivision_levels();
         if (!ok_) return nullptr;
-        for (std::uint32_t k = 0; k < mesh_.vlist.n_keys; ++k)
-            out_.positions.emplace_back(mesh_.vlist.key(k).begin(), mesh_.vlist.key(k).end());
+        if (levels > 0)
+            refine(levels);
+        else
+            make_triangles();
+        if (!ok_) return nullptr;
+        add_displacement();
         auto geometry = std::make_unique<ShapeGeometry>();
         geometry->data = std::move(out_);
         return geometry;
     }
 
   private:
+    void make_triangles() {
+        split_faces();
+        report_skipped();
+        add_normals();
+        add_uvs();
+        if (!ok_) return;
+        for (std::uint32_t k = 0; k < mesh_.vlist.n_keys; ++k)
+            out_.positions.emplace_back(mesh_.vlist.key(k).begin(), mesh_.vlist.key(k).end());
+    }
+
     [[nodiscard]] std::size_t n_faces() const { return first_corner_.size() - 1; }
     [[nodiscard]] std::size_t n_corners() const { return first_corner_.back(); }
 
@@ -164,17 +174,19 @@ class MeshBuilder {
                                        std::move(hint));
     }
 
-    void warn_pending() {
-        if (mesh_.subdiv_type != SubdivType::None && mesh_.subdiv_iterations > 0)
-            context_.diagnostics().warning(
-                Code::ParamPending, "subdivision is not supported yet: the control mesh is shown",
-                context_.where("subdiv_type"), "subdivide in the program that wrote the scene");
-        for (const NodeRef& map : mesh_.disp_map.first_key())
-            if (map)
-                context_.diagnostics().warning(
-                    Code::ParamPending,
-                    "displacement is not supported yet: the mesh is shown without it",
-                    context_.where("disp_map"), "displace in the program that wrote the scene");
+    /// Tells the renderer how disp_map acts, if there is one.
+    void add_displacement() {
+        const auto maps = mesh_.disp_map.first_key();
+        if (std::none_of(maps.begin(), maps.end(), [](const NodeRef& map) { return bool(map); }))
+            return;
+        for (const auto& [param, value] : {std::pair{"disp_height", mesh_.disp_height},
+                                           std::pair{"disp_zero_value", mesh_.disp_zero_value}})
+            if (!std::isfinite(value))
+                return warning(std::string(param) + " is not finite", param,
+                               "the mesh is not displaced");
+        if (mesh_.disp_height == 0) return;
+        out_.displacement = Displacement{mesh_.disp_height, mesh_.disp_zero_value,
+                                         mesh_.disp_autobump, mesh_.autobump_visibility};
     }
 
     /// Where each polygon's corners start in vidxs.
@@ -264,31 +276,32 @@ class MeshBuilder {
     void split_faces() {
         corners_.resize(n_corners());
         std::iota(corners_.begin(), corners_.end(), 0U);
-        std::size_t n_skipped = 0;
-        std::vector<std::span<const std::uint32_t>> rings;
+        n_skipped_ = 0;
         for (std::uint32_t face = 0; face < n_faces() && ok_; ++face) {
             if (is_hole_[face]) continue;
-            if (ring(face).size() < 3) {
-                ++n_skipped;
-                continue;
-            }
-            rings.assign(1, ring(face));
-            if (const auto found = holes_.find(face); found != holes_.end())
-                for (const std::uint32_t hole : found->second)
-                    rings.push_back(ring(hole));
-            split(face, rings);
+            if (ring(face).size() < 3)
+                ++n_skipped_;
+            else
+                split_polygon(face);
         }
-        if (n_skipped > 0)
-            warning(fmt::format("{} polygons with fewer than 3 corners were left out", n_skipped),
-                    "nsides", "");
         const auto points = mesh_.vidxs.first_key();
         out_.indices.reserve(out_.corner.size());
         for (const std::uint32_t corner : out_.corner)
             out_.indices.push_back(points[corner]);
     }
 
-    void split(std::uint32_t face, std::span<const std::span<const std::uint32_t>> rings) {
-        switch (triangulator_.split(rings, mesh_.vidxs.first_key(), mesh_.vlist.first_key(),
+    void report_skipped() {
+        if (n_skipped_ > 0)
+            warning(fmt::format("{} polygons with fewer than 3 corners were left out", n_skipped_),
+                    "nsides", "");
+    }
+
+    void split_polygon(std::uint32_t face) {
+        rings_.assign(1, ring(face));
+        if (const auto found = holes_.find(face); found != holes_.end())
+            for (const std::uint32_t hole : found->second)
+                rings_.push_back(ring(hole));
+        switch (triangulator_.split(rings_, mesh_.vidxs.first_key(), mesh_.vlist.first_key(),
                                     out_.corner)) {
             case PolygonResult::Done: break;
             case PolygonResult::HoleOutside:
@@ -311,23 +324,30 @@ class MeshBuilder {
         if (!mesh_.shidxs.empty()) out_.shader_index.resize(out_.face.size(), mesh_.shidxs[face]);
     }
 
-    /// Index list of one triangle corner each: `indices` of the corners, or vidxs where there are none.
-    std::vector<std::uint32_t> corner_values(const Array<std::uint32_t>& indices,
-                                             const char* param, std::size_t n_values,
-                                             const char* list) {
+    /// `indices` of the polygons' corners, or vidxs where there are none; null, with a report, if they do not fit.
+    const Array<std::uint32_t>* checked(const Array<std::uint32_t>& indices, const char* param,
+                                        std::size_t n_values, const char* list) {
         const Array<std::uint32_t>& used = indices.empty() ? mesh_.vidxs : indices;
         if (used.n < n_corners()) {
             error(fmt::format("{} has {} entries for {} polygon corners", param, used.n,
                               n_corners()),
                   param);
-            return {};
+            return nullptr;
         }
         check_indices(used, indices.empty() ? "vidxs" : param, n_values, list);
-        if (!ok_) return {};
+        return ok_ ? &used : nullptr;
+    }
+
+    /// The same for one triangle corner each.
+    std::vector<std::uint32_t> corner_values(const Array<std::uint32_t>& indices,
+                                             const char* param, std::size_t n_values,
+                                             const char* list) {
+        const Array<std::uint32_t>* used = checked(indices, param, n_values, list);
         std::vector<std::uint32_t> out;
+        if (used == nullptr) return out;
         out.reserve(out_.corner.size());
         for (const std::uint32_t corner : out_.corner)
-            out.push_back(used[corner]);
+            out.push_back((*used)[corner]);
         return out;
     }
 
@@ -363,6 +383,10 @@ class MeshBuilder {
     void add_uvs() {
         if (mesh_.uvlist.empty() || !ok_) return;
         out_.uv_indices = corner_values(mesh_.uvidxs, "uvidxs", mesh_.uvlist.n, "uvlist");
+        copy_uvs();
+    }
+
+    void copy_uvs() {
         const auto all = mesh_.uvlist.first_key();
         out_.uvs.assign(all.begin(), all.end());
         bool finite = true;
@@ -375,6 +399,162 @@ class MeshBuilder {
             warning("uvlist holds values that are not finite", "uvlist", "they are taken as 0 0");
     }
 
+    // Subdivision.
+
+    /// How often to subdivide; 0: not at all.
+    int subdivision_levels() {
+        if (mesh_.subdiv_type == SubdivType::None || mesh_.subdiv_iterations == 0) return 0;
+        make_cage();
+        if (!ok_ || cage_.first_corner.size() < 2) return 0;
+        FinenessRule rule;
+        rule.error = std::isfinite(mesh_.subdiv_adaptive_error) ? mesh_.subdiv_adaptive_error : 0;
+        const bool displaced = !mesh_.disp_map.empty() && mesh_.disp_map[0];
+        rule.by_edges = mesh_.subdiv_adaptive_metric == SubdivMetric::EdgeLength ||
+                        (mesh_.subdiv_adaptive_metric == SubdivMetric::Auto && displaced);
+        std::optional<DicingView> view;
+        if (rule.error > 0 && mesh_.subdiv_adaptive_space == SubdivSpace::Raster) {
+            const NodeInstance* camera =
+                mesh_.subdiv_dicing_camera ? mesh_.subdiv_dicing_camera.node : context_.camera();
+            rule.view = &view.emplace(camera, context_.frame());
+            if (!mesh_.matrix.empty()) rule.world_from_object = mesh_.matrix[0];
+        }
+        const int wanted =
+            levels_needed(cage_, mesh_.vlist.first_key(), rule, mesh_.subdiv_iterations);
+        int levels = wanted;
+        while (levels > 0 && n_refined_quads(cage_.first_corner, levels) > kMaxRefinedQuads)
+            --levels;
+        if (levels < wanted)
+            context_.diagnostics().warning(
+                Code::LimitMemory,
+                fmt::format("{} steps of subdivision would make {:.3g} quads; {} are made", wanted,
+                            n_refined_quads(cage_.first_corner, wanted), levels),
+                context_.where("subdiv_iterations"),
+                fmt::format("the limit kMaxRefinedQuads is {:.3g} quads a mesh; fewer steps, or a "
+                            "subdiv_adaptive_error, save memory",
+                            kMaxRefinedQuads));
+        return levels;
+    }
+
+    /// The polygons; those with holes as triangles, and corners that repeat their neighbour's vertex left out.
+    void make_cage() {
+        corners_.resize(n_corners());
+        std::iota(corners_.begin(), corners_.end(), 0U);
+        cage_.first_corner = {0};
+        for (std::uint32_t face = 0; face < n_faces() && ok_; ++face) {
+            if (is_hole_[face]) continue;
+            if (holes_.contains(face)) {
+                add_triangles_with_holes(face);
+            } else if (!add_to_cage(face, ring(face))) {
+                ++n_skipped_;
+            }
+        }
+        cage_.n_vertices = mesh_.vlist.n;
+        cage_.linear = mesh_.subdiv_type == SubdivType::Linear;
+        cage_.uv_smoothing = mesh_.subdiv_uv_smoothing;
+        if (ok_) add_creases();
+    }
+
+    bool add_to_cage(std::uint32_t polygon, std::span<const std::uint32_t> corners) {
+        const std::size_t first = cage_.vertex.size();
+        for (const std::uint32_t corner : corners) {
+            const std::uint32_t vertex = mesh_.vidxs[corner];
+            if (cage_.vertex.size() > first && cage_.vertex.back() == vertex) continue;
+            cage_.corner.push_back(corner);
+            cage_.vertex.push_back(vertex);
+        }
+        while (cage_.vertex.size() > first + 1 && cage_.vertex.back() == cage_.vertex[first]) {
+            cage_.corner.pop_back();
+            cage_.vertex.pop_back();
+        }
+        if (cage_.vertex.size() < first + 3) {
+            cage_.corner.resize(first);
+            cage_.vertex.resize(first);
+            return false;
+        }
+        cage_.first_corner.push_back(static_cast<std::uint32_t>(cage_.vertex.size()));
+        polygon_.push_back(polygon);
+        return true;
+    }
+
+    void add_triangles_with_holes(std::uint32_t face) {
+        split_polygon(face);
+        for (std::size_t i = 0; i + 2 < out_.corner.size(); i += 3)
+            add_to_cage(face, std::span(out_.corner).subspan(i, 3));
+        out_.corner.clear();
+        out_.face.clear();
+        out_.shader_index.clear();
+    }
+
+    void add_creases() {
+        const auto pairs = mesh_.crease_idxs.first_key();
+        const auto sharpness = mesh_.crease_sharpness.first_key();
+        std::size_t n_wrong = pairs.size() % 2;
+        for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
+            const std::size_t which = sharpness.size() == 1 ? 0 : i / 2;
+            const float s = which < sharpness.size() ? sharpness[which] : kInfinity;
+            if (pairs[i] >= mesh_.vlist.n || pairs[i + 1] >= mesh_.vlist.n || std::isnan(s)) {
+                ++n_wrong;
+                continue;
+            }
+            cage_.creases.push_back({pairs[i], pairs[i + 1], std::clamp(s, 0.0F, kSharpest)});
+        }
+        if (n_wrong > 0)
+            warning(
+                fmt::format("{} of {} entries of crease_idxs name no vertex or have no "
+                            "sharpness",
+                            n_wrong, pairs.size()),
+                "crease_idxs",
+                fmt::format("indices run from 0 to {}; such creases are left out", mesh_.vlist.n));
+        if (sharpness.size() > 1 && sharpness.size() != pairs.size() / 2)
+            warning(fmt::format("crease_sharpness has {} entries for {} creases", sharpness.size(),
+                                pairs.size() / 2),
+                    "crease_sharpness", "creases without one stay sharp for all steps");
+    }
+
+    void refine(int levels) {
+        report_skipped();
+        cage_.levels = levels;
+        RefinedMeshInput input;
+        if (!mesh_.uvlist.empty()) {
+            const Array<std::uint32_t>* uv =
+                checked(mesh_.uvidxs, "uvidxs", mesh_.uvlist.n, "uvlist");
+            if (uv == nullptr) return;
+            for (const std::uint32_t corner : cage_.corner)
+                cage_.uv.push_back((*uv)[corner]);
+            cage_.n_uvs = mesh_.uvlist.n;
+            copy_uvs();
+        }
+        input.smooth = mesh_.smoothing;
+        // Smooth surfaces have normals of their own. Flat ones keep what they had.
+        TriangleMesh flat;
+        if (mesh_.smoothing && cage_.linear) {
+            split_faces();
+            add_normals();
+            if (!ok_) return;
+            flat = std::move(out_);
+            out_ = {};
+            out_.uvs = std::move(flat.uvs);
+            for (const auto& key : flat.normals)
+                input.normals.emplace_back(key);
+            const bool own = !mesh_.nlist.empty() && !mesh_.nidxs.empty();
+            input.normal_of_corner = (own ? mesh_.nidxs : mesh_.vidxs).first_key();
+        }
+        for (std::uint32_t k = 0; k < mesh_.vlist.n_keys; ++k)
+            input.positions.push_back(mesh_.vlist.key(k));
+        input.shader_of_polygon = mesh_.shidxs.first_key();
+        const std::vector<Vec2f> uvs = std::move(out_.uvs);
+        input.uvs = uvs;
+        input.cage = std::move(cage_);
+        input.polygon = std::move(polygon_);
+        std::optional<TriangleMesh> refined = refined_mesh(input);
+        if (!refined)
+            return error("the mesh cannot be subdivided", "subdiv_type",
+                         "no vertex or polygon may have more than 65535 edges");
+        out_ = std::move(*refined);
+    }
+
+    static constexpr float kSharpest = 10;  ///< OpenSubdiv's: sharp for ever
+
     const Polymesh& mesh_;
     NodeContext& context_;
     bool ok_ = true;
@@ -383,7 +563,11 @@ class MeshBuilder {
     std::vector<std::uint32_t> first_corner_;  ///< of each polygon in vidxs, and the end
     std::vector<std::uint32_t> corners_;       ///< 0, 1, 2, ...: rings are parts of it
     std::vector<bool> is_hole_;
+    std::vector<std::span<const std::uint32_t>> rings_;  ///< of the polygon that is being split
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> holes_;  ///< by outer polygon
+    std::size_t n_skipped_ = 0;  ///< polygons with fewer than 3 corners
+    SubdivisionCage cage_;
+    std::vector<std::uint32_t> polygon_;  ///< of each face of the cage
 };
 
 std::unique_ptr<ShapeGeometry> Polymesh::make_geometry(NodeContext& context) const {

@@ -216,12 +216,123 @@ TEST(Polymesh, HugeConcavePolygonsAreRefused) {
     EXPECT_EQ(context.count(Code::LimitPolygon), 1U);
 }
 
-TEST(Polymesh, SubdivisionIsNotSilentlyLeftOut) {
-    TestNode node = two_quads();
-    node.set_enum("subdiv_type", 1);
+/// A unit square that is to be subdivided.
+TestNode subdivided_square(std::int32_t type, std::uint8_t iterations) {
+    TestNode node(node_polymesh());
+    node.set_array<std::uint32_t>("nsides", {4});
+    node.set_array<std::uint32_t>("vidxs", {0, 1, 2, 3});
+    node.set_array<Vec3f>("vlist", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    node.set_enum("subdiv_type", type);
+    node.set("subdiv_iterations", iterations);
+    return node;
+}
+constexpr std::int32_t kCatclark = 1, kLinear = 2;
+
+TEST(Polymesh, IterationsMakeFourQuadsOfOne) {
+    for (const std::int32_t type : {kCatclark, kLinear}) {
+        const TriangleMesh mesh = built(subdivided_square(type, 3));
+        EXPECT_EQ(mesh.indices.size(), 64U * 6);
+        EXPECT_EQ(mesh.face, Indices(128, 0));
+        EXPECT_EQ(mesh.positions[0].size(), 81U);
+        EXPECT_NE(mesh.origin, nullptr);
+        EXPECT_TRUE(mesh.normals.empty() && mesh.uvs.empty());
+    }
+    EXPECT_EQ(built(subdivided_square(kCatclark, 0)).indices.size(), 6U);
+    EXPECT_EQ(built(subdivided_square(kCatclark, 0)).origin, nullptr);
+}
+
+TEST(Polymesh, SubdivisionHasALimit) {
+    // 4^255 quads are not made; what is possible is, and said.
     TestContext context;
-    EXPECT_NE(build(node, context), nullptr);
-    EXPECT_EQ(context.count(Code::ParamPending), 1U);
+    const auto geometry = build(subdivided_square(kLinear, 255), context);
+    ASSERT_NE(geometry, nullptr);
+    EXPECT_EQ(context.count(Code::LimitMemory), 1U);
+    const std::size_t n = std::get<TriangleMesh>(geometry->data).indices.size() / 6;
+    EXPECT_EQ(n, 1U << 22U);
+}
+
+TEST(Polymesh, LinearSubdivisionKeepsTheNodesNormals) {
+    TestNode node = subdivided_square(kLinear, 1);
+    node.set("smoothing", true);
+    node.set_array<Vec3f>("nlist", {{0, 0, 1}, {1, 0, 0}});
+    node.set_array<std::uint32_t>("nidxs", {0, 1, 1, 0});
+    const TriangleMesh mesh = built(node);
+    ASSERT_EQ(mesh.normal_indices.size(), mesh.indices.size());
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const float x = mesh.positions[0][mesh.indices[i]].x;
+        const Vec3f truth = normalize(Vec3f{x, 0, 1 - x});
+        EXPECT_LT(length(mesh.normals[0][mesh.normal_indices[i]] - truth), 1e-6F);
+    }
+    // Without normals of the node: those of the mesh. A smooth surface has its own.
+    node.set_array<Vec3f>("nlist", {});
+    EXPECT_NEAR(built(node).normals[0][0].z, 1, 1e-6F);
+    TestNode smooth = subdivided_square(kCatclark, 1);
+    smooth.set("smoothing", true);
+    const TriangleMesh limit = built(smooth);
+    EXPECT_EQ(limit.normal_indices, limit.indices);
+    EXPECT_NEAR(limit.normals[0][0].z, 1, 1e-6F);
+}
+
+TEST(Polymesh, SubdivisionTakesKeysHolesAndShaders) {
+    TestNode node(node_polymesh());
+    // A square with a square hole, and a triangle beside it; the second key is higher by 1.
+    std::vector<Vec3f> points{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {1, 1, 0},
+                              {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {4, 0, 0}};
+    for (std::size_t i = 0; i < 9; ++i)
+        points.push_back(points[i] + Vec3f{0, 0, 1});
+    node.set_array<std::uint32_t>("nsides", {4, 4, 3});
+    node.set_array<std::uint32_t>("vidxs", {0, 1, 2, 3, 4, 5, 6, 7, 1, 8, 2});
+    node.set_array<Vec3f>("vlist", points, 2);
+    node.set_array<std::uint32_t>("polygon_holes", {1, 0});
+    node.set_array<std::uint8_t>("shidxs", {0, 0, 0});
+    node.set_enum("subdiv_type", kLinear);
+    const TriangleMesh mesh = built(node);
+    ASSERT_EQ(mesh.positions.size(), 2U);
+    double area = 0, beside = 0;
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+        const auto p = [&](std::size_t i) { return mesh.positions[0][mesh.indices[t + i]]; };
+        const double a = 0.5 * static_cast<double>(length(cross(p(1) - p(0), p(2) - p(0))));
+        (mesh.face[t / 3] == 2 ? beside : area) += a;
+        EXPECT_NE(mesh.face[t / 3], 1U);
+        EXPECT_EQ(mesh.positions[1][mesh.indices[t]], (p(0) + Vec3f{0, 0, 1}));
+    }
+    EXPECT_NEAR(area, 8, 1e-5);
+    EXPECT_NEAR(beside, 1.5, 1e-5);
+    EXPECT_EQ(mesh.shader_index.size(), mesh.face.size());
+}
+
+TEST(Polymesh, BadCreasesAreLeftOut) {
+    TestNode node = subdivided_square(kCatclark, 1);
+    node.set_array<std::uint32_t>("crease_idxs", {0, 0, 1, 99, 2, 2, 3});
+    node.set_array<float>("crease_sharpness",
+                          {kInfinity, 5, std::numeric_limits<float>::quiet_NaN()});
+    TestContext context;
+    const auto geometry = build(node, context);
+    ASSERT_NE(geometry, nullptr);
+    EXPECT_EQ(context.count(Code::BadMesh), 1U) << context.diagnostics().render();
+    // Vertex 0 is pinned, the others are not.
+    const auto& points = std::get<TriangleMesh>(geometry->data).positions[0];
+    const auto has = [&](Vec3f p) {
+        return std::any_of(points.begin(), points.end(),
+                           [&](Vec3f q) { return length(p - q) < 1e-5F; });
+    };
+    EXPECT_TRUE(has({0, 0, 0}));
+    EXPECT_FALSE(has({1, 1, 0}));
+}
+
+TEST(Polymesh, DegeneratePolygonsDoNotStopSubdivision) {
+    TestNode node(node_polymesh());
+    node.set_array<std::uint32_t>("nsides", {4, 4, 2, 4});
+    node.set_array<std::uint32_t>("vidxs", {0, 0, 1, 2, 1, 1, 1, 2, 0, 1, 0, 1, 2, 0});
+    node.set_array<Vec3f>("vlist", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    node.set_enum("subdiv_type", kCatclark);
+    TestContext context;
+    const auto geometry = build(node, context);
+    ASSERT_NE(geometry, nullptr);
+    EXPECT_EQ(context.count(Code::BadMesh), 1U);  // two polygons with fewer than three corners
+    EXPECT_FALSE(std::get<TriangleMesh>(geometry->data).indices.empty());
+    for (const Vec3f p : std::get<TriangleMesh>(geometry->data).positions[0])
+        EXPECT_TRUE(is_finite(p));
 }
 
 TEST(Sphere, IsCheckedAndExact) {

@@ -9,11 +9,8 @@
 
 namespace lightsieve {
 
-enum class TransformType : std::int32_t { Linear, RotateAboutOrigin, RotateAboutCenter };
-
 /// Parameters of every shape node that the renderer does not read.
 struct ShapeNode : ShapeCommon {
-    TransformType transform_type = TransformType::RotateAboutCenter;
     Name toon_id;
 };
 
@@ -52,11 +49,11 @@ void describe_shape_common(Describe<T>& d) {
             "The shape casts shadows in the lights of shadow_group only.");
     d.param("shadow_group", &ShapeCommon::shadow_group, "Lights for use_shadow_group.");
     d.param("trace_sets", &ShapeCommon::trace_sets,
-            "Names by which shaders choose what they trace.");
-    d.param("transform_type", &ShapeNode::transform_type,
-            "How matrices between motion keys are found; here element by element.")
-        .names({"linear", "rotate_about_origin", "rotate_about_center"})
-        .ignored();
+            "Names by which shaders (trace_set parameters) choose what their rays meet.");
+    d.param("transform_type", &ShapeCommon::transform_type,
+            "How matrices between motion keys are found: element by element, or turning about the "
+            "origin or the middle of the shape, which moves along a line.")
+        .names({"linear", "rotate_about_origin", "rotate_about_center"});
     d.param("step_size", &ShapeCommon::step_size,
             "Above 0 the shape is no surface but the container of a volume. How large it is does "
             "not matter: free paths are drawn exactly, not stepped.")
