@@ -12,8 +12,8 @@
 
 namespace lightsieve {
 
-/// Quads of one mesh: about 2.5 GB with everything that rays need. Arnold has no limit but memory.
-inline constexpr double kMaxRefinedQuads = 8e6;
+/// Quads of one mesh: about 2.5 GB (500 bytes each) while it is made and for what rays need. Arnold has no limit but memory.
+inline constexpr double kMaxRefinedQuads = 5e6;
 
 /// What is refined beside the cage.
 struct RefinedMeshInput {
