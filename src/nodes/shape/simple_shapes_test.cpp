@@ -12,20 +12,17 @@ NodeType node_box();
 NodeType node_cone();
 NodeType node_cylinder();
 NodeType node_disk();
-NodeType node_implicit();
-NodeType node_nurbs();
 NodeType node_plane();
 
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-std::unique_ptr<ShapeGeometry> geometry(const TestNode& node, Code code = Code::ShapeBad,
-                                        std::size_t n_warnings = 0) {
+std::unique_ptr<ShapeGeometry> geometry(const TestNode& node, std::size_t n_warnings = 0) {
     TestContext context;
     auto out = node.type().make_geometry(node.block(), context);
     EXPECT_FALSE(context.diagnostics().has_errors()) << context.diagnostics().render();
-    EXPECT_EQ(context.count(code), n_warnings) << context.diagnostics().render();
+    EXPECT_EQ(context.count(Code::ShapeBad), n_warnings) << context.diagnostics().render();
     EXPECT_EQ(out == nullptr, n_warnings > 0);
     return out;
 }
@@ -33,9 +30,7 @@ std::unique_ptr<ShapeGeometry> geometry(const TestNode& node, Code code = Code::
 SimpleShape built(const TestNode& node) { return std::get<SimpleShape>(geometry(node)->data); }
 
 /// The node is left out with one warning.
-void expect_left_out(const TestNode& node, Code code = Code::ShapeBad) {
-    EXPECT_EQ(geometry(node, code, 1), nullptr);
-}
+void expect_left_out(const TestNode& node) { EXPECT_EQ(geometry(node, 1), nullptr); }
 
 TEST(SimpleShapeNodes, MantlesRunFromBottomToTop) {
     TestNode cone(node_cone());
@@ -67,11 +62,6 @@ TEST(SimpleShapeNodes, WrongNumbersLeaveTheShapeOut) {
     expect_left_out(TestNode(node_plane()).set("point", Vec3f{0, kNan, 0}));
     expect_left_out(TestNode(node_box()).set("max", Vec3f{0, kNan, 0}));
     expect_left_out(TestNode(node_box()).set("max", Vec3f{-0.5F, -0.5F, 1}));
-}
-
-TEST(SimpleShapeNodes, KnownByNameOnly) {
-    expect_left_out(TestNode(node_nurbs()), Code::ParamPending);
-    expect_left_out(TestNode(node_implicit()), Code::ParamPending);
 }
 
 TEST(SimpleShapeNodes, BoxesStandUpright) {
