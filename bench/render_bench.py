@@ -32,6 +32,7 @@ from scenes import (  # noqa: E402
     ceiling_panels,
     cornell_box,
     hair_ball,
+    meadow,
     smoke_plume,
     terrain,
     wax_head,
@@ -49,6 +50,7 @@ class Size:
         spp: samples a pixel.
         n_triangles: of the terrain.
         n_strands: of hair.
+        n_plants: of the meadow.
         rounds: renders of each variant.
     """
 
@@ -56,11 +58,12 @@ class Size:
     spp: int
     n_triangles: int
     n_strands: int
+    n_plants: int
     rounds: int
 
 
-FULL = Size(512, 16, 2_000_000, 100_000, 3)
-QUICK = Size(128, 9, 100_000, 10_000, 2)
+FULL = Size(512, 16, 2_000_000, 100_000, 1_000_000, 3)
+QUICK = Size(128, 9, 100_000, 10_000, 50_000, 2)
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,10 @@ def _hair(path: Path, size: Size) -> None:
     hair_ball.write(path, size.n_strands, size.resolution)
 
 
+def _meadow(path: Path, size: Size) -> None:
+    meadow.write(path, size.n_plants, size.resolution)
+
+
 def _head(path: Path, size: Size) -> None:
     wax_head.write(path, size.resolution)
 
@@ -109,6 +116,7 @@ SCENES = (
     Scene("ball of hair", _hair),
     Scene("head of wax", _head),
     Scene("plume of smoke", _smoke),
+    Scene("meadow of instances", _meadow),
 )
 # The same lamp cut into eight groups: the same picture as with one.
 AOV_SCENES = (
@@ -187,6 +195,7 @@ def print_tables(document: dict[str, Any]) -> None:
     print(
         f"lightsieve {document['version']}, {document['threads']} threads, {size} a pixel, "
         f"terrain of {document['n_triangles']:,} triangles, {document['n_strands']:,} strands, "
+        f"{document['n_plants']:,} plants, "
         f"least of {document['rounds']} rounds\n"
     )
     print(

@@ -38,7 +38,7 @@ int profile(int argc, char** argv) {
     Registry registry;
     add_all_nodes(registry);
     const Document document = read_ass_file(options.scene_path, diagnostics);
-    const SceneGraph graph = build_graph(document, registry, {}, diagnostics);
+    SceneGraph graph = build_graph(document, registry, {}, diagnostics);
     const ScenePtr scene = compile_scene(graph, options, diagnostics);
     std::fputs(diagnostics.render().c_str(), stderr);
     if (!scene) return 1;

@@ -19,9 +19,9 @@ namespace lightsieve {
 
 /// One placed geometry.
 struct AccelObject {
-    const ShapeGeometry* geometry = nullptr;  ///< keys over the shutter; must outlive the Accel
-    std::vector<Mat4f> world_from_object;     ///< at least one; keys over the shutter
-    std::uint32_t mask = 0;                   ///< rays with a common bit see it
+    const ShapeGeometry* geometry = nullptr;   ///< keys over the shutter; must outlive the Accel
+    std::span<const Mat4f> world_from_object;  ///< at least one; keys over the shutter
+    std::uint32_t mask = 0;                    ///< rays with a common bit see it
 };
 
 class Accel {

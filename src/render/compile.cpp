@@ -6,6 +6,8 @@
 
 #include "render/compiler.h"
 #include "render/shade_services.h"
+#include "scene/assemble.h"
+#include "scene/switches.h"
 
 namespace lightsieve {
 namespace {
@@ -19,6 +21,36 @@ std::uint8_t depth_limit(std::int32_t n) {
     return static_cast<std::uint8_t>(std::clamp(n, 0, 250));
 }
 
+template <class T>
+T option_of(const SceneGraph& graph, Name param, T fallback) {
+    const T* value = graph.options() == nullptr ? nullptr : graph.options()->find<T>(param);
+    return value == nullptr ? fallback : *value;
+}
+
+/// Lets operators act and procedurals be read, with the scene's search paths.
+void assemble_scene(SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics) {
+    const auto folder = [](const std::string& file) {
+        return std::filesystem::path(file).parent_path().string();
+    };
+    AssetFinder finder;
+    for (const char* param : {"procedural_searchpath", "asset_searchpath"})
+        finder.add_search_path(option_of<Name>(graph, param, {}).view());
+    if (!options.scene_path.empty()) finder.add_folder(folder(options.scene_path));
+    AssembleOptions assembly;
+    assembly.scene_path = options.scene_path;
+    assembly.ignore_operators = option_of(graph, "ignore_operators", false);
+    assembly.share_procedurals = option_of(graph, "procedural_auto_instancing", true);
+    assembly.find_file = [&](std::string_view name, const std::string& from) {
+        std::optional<std::string> found = finder.find(name);
+        if (found || from.empty()) return found;
+        AssetFinder beside;
+        beside.add_folder(folder(from));
+        return beside.find(name);
+    };
+    assemble(graph, assembly, diagnostics);
+    apply_switches(graph, diagnostics);
+}
+
 }  // namespace
 
 Scene::Scene() : services(std::make_unique<SceneServices>(*this)) {}
@@ -28,8 +60,8 @@ void SceneDelete::operator()(Scene* scene) const { delete scene; }
 
 SceneSummary summarize(const Scene& scene) { return scene.summary; }
 
-ScenePtr compile_scene(const SceneGraph& graph, const RenderOptions& options,
-                       Diagnostics& diagnostics) {
+ScenePtr compile_scene(SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics) {
+    assemble_scene(graph, options, diagnostics);
     return Compiler(graph, options, diagnostics).run();
 }
 
@@ -73,9 +105,12 @@ ScenePtr Compiler::run() {
 }
 
 bool Compiler::has_caustics() const {
-    return std::any_of(graph_.nodes().begin(), graph_.nodes().end(), [](const auto& node) {
+    const auto has = [](const auto& node) {
         const bool* caustics = node->template find<bool>("caustics");
         return caustics != nullptr && (*caustics || node->is_linked("caustics"));
+    };
+    return std::any_of(graph_.scopes().begin(), graph_.scopes().end(), [&](const auto& scope) {
+        return std::any_of(scope->nodes.begin(), scope->nodes.end(), has);
     });
 }
 

@@ -15,7 +15,7 @@ std::uint32_t mask_of(const SceneObject& object) {
     if ((object.visibility & ray_bit(RayType::Shadow)) == 0) return seen;
     // One-sided shadows, and those in some lights only, need a look at each hit, as transparent ones do.
     const bool look = object.may_be_transparent || object.may_tint_shadows ||
-                      !object.shadow_lights.empty() ||
+                      object.shadow_lights != nullptr ||
                       (object.sidedness & ray_bit(RayType::Shadow)) == 0;
     return seen | (look ? kMaskShadowTransparent : kMaskShadowOpaque);
 }

@@ -30,12 +30,15 @@ void Compiler::displace(const NodeInstance& node, ShapeGeometry& geometry) {
     if (std::none_of(programs.begin(), programs.end(), moves)) return;
 
     SceneObject place;
-    place.node = &node;
+    place.lineage = extend(nullptr, node, 1);
     place.name = node.name();
     place.id = common.id;
     place.services = scene_->services.get();
-    place.world_from_object = {common.matrix.empty() ? Mat4f{} : common.matrix[0]};
-    place.object_from_world = {place.world_from_object[0].inverse()};
+    const std::span<Mat4f> matrices = scene_->matrices.allocate_array<Mat4f>(2);
+    matrices[0] = common.matrix.empty() ? Mat4f{} : common.matrix[0];
+    matrices[1] = matrices[0].inverse();
+    place.world_from_object = matrices.first(1);
+    place.object_from_world = matrices.last(1);
     const bool autobump = mesh->displacement->autobump;
     auto map = std::make_shared<DisplacementMap>(std::move(*mesh), std::move(programs), place);
     *mesh = map->displaced();

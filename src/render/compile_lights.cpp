@@ -85,22 +85,9 @@ std::vector<Mat4f> Compiler::light_stops(const NodeInstance& node) {
 }
 
 void Compiler::make_lights() {
-    std::set<std::string> groups;
     const NodeInstance* portal = nullptr;
-    for (const auto& node : graph_.nodes()) {
-        if (node->kind() != NodeKind::Light || node->type().make_light == nullptr) continue;
-        CompileContext context(*this, node.get(), node->name());
-        const std::vector<Mat4f> stops = light_stops(*node);
-        if (const bool* opening = node->find<bool>("portal"); opening != nullptr && *opening) {
-            if (auto light = light_at(*node, stops[stops.size() / 2], 1, context))
-                scene_->portals.push_back(std::move(light));
-            portal = node.get();
-            continue;
-        }
-        const float share = 1 / static_cast<float>(stops.size());
-        for (const Mat4f& place : stops)
-            add_light(*node, light_at(*node, place, share, context), place);
-    }
+    make_lights_of(*graph_.scopes().front(), Mat4f{}, portal);
+    std::set<std::string> groups;
     for (const SceneLight& light : scene_->lights)
         if (light.group != "default") groups.insert(light.group);
     if (portal != nullptr) set_portals(*portal);
@@ -110,6 +97,35 @@ void Compiler::make_lights() {
         lights.push_back(light.light.get());
     scene_->light_samplers.push_back(std::make_unique<LightSampler>(lights));
     add_light_geometry();
+}
+
+/// Lights of a scope and of the procedurals in it.
+///
+/// outer   matrix of the procedurals around, at their first key
+/// portal  becomes the last light that is a portal
+void Compiler::make_lights_of(const NodeScope& scope, const Mat4f& outer,
+                              const NodeInstance*& portal) {
+    for (const auto& node : scope.nodes) {
+        if (const NodeScope* inside = graph_.contents(*node); inside != nullptr) {
+            const Array<Mat4f>& own = node->type().shape_common(node->block())->matrix;
+            make_lights_of(*inside, own.empty() ? outer : own[0] * outer, portal);
+        }
+        if (node->kind() != NodeKind::Light || node->type().make_light == nullptr) continue;
+        CompileContext context(*this, node.get(), node->name());
+        context.set_outer(outer);
+        const std::vector<Mat4f> stops = light_stops(*node);
+        if (const bool* opening = node->find<bool>("portal"); opening != nullptr && *opening) {
+            if (auto light = light_at(*node, stops[stops.size() / 2] * outer, 1, context))
+                scene_->portals.push_back(std::move(light));
+            portal = node.get();
+            continue;
+        }
+        const float share = 1 / static_cast<float>(stops.size());
+        for (const Mat4f& stop : stops) {
+            const Mat4f place = stop * outer;
+            add_light(*node, light_at(*node, place, share, context), place);
+        }
+    }
 }
 
 /// Takes a node's light into the scene; null: it has none.
@@ -197,7 +213,8 @@ void Compiler::add_light_geometry() {
         if (geometry == nullptr) continue;
         SceneObject object;
         object.geometry = geometry;
-        object.world_from_object = object.object_from_world = {Mat4f{}};
+        static constexpr Mat4f kInPlace{};
+        object.world_from_object = object.object_from_world = {&kInPlace, 1};
         object.name = scene_->lights[i].name;
         scene_->light_of_object.push_back(i);
         scene_->light_objects.push_back(std::move(object));

@@ -260,11 +260,18 @@ void Compiler::make_aov_shaders() {
 
 std::vector<Name> CompileContext::user_texts(Name attribute) {
     std::set<Name> out;
-    for (const auto& node : compiler_.graph().nodes())
-        if (const UserData* data = node->find_user_data(attribute);
-            data != nullptr && data->type == ParamType::String && data->n > 0)
-            for (const Name text : data->values<Name>())
-                out.insert(text);
+    const auto add = [&](const NodeInstance& node, Name name) {
+        const UserData* data = node.find_user_data(name);
+        if (data == nullptr || data->type != ParamType::String || data->n == 0) return;
+        for (const Name text : data->values<Name>())
+            out.insert(text);
+    };
+    const Name by_instance("instance_" + attribute.str());
+    for (const auto& scope : compiler_.graph().scopes())
+        for (const auto& node : scope->nodes) {
+            add(*node, attribute);
+            add(*node, by_instance);
+        }
     return {out.begin(), out.end()};
 }
 
@@ -297,6 +304,7 @@ std::unique_ptr<ShapeGeometry> CompileContext::geometry_of(NodeRef shape,
     }
     const Array<Mat4f>& matrix = node.type().shape_common(node.block())->matrix;
     if (!matrix.empty()) world_from_object = matrix[0];
+    world_from_object = world_from_object * outer_;
     return compiler_.geometry_of(node);
 }
 

@@ -27,8 +27,9 @@ bool is_closed(const decltype(ShapeGeometry::data)& data) {
 
 }  // namespace
 
-bool Compiler::add_volume(const NodeInstance& node, const NodeInstance& source,
-                          SceneObject& object, float step_size) {
+bool Compiler::add_volume(const ShapeLeaf& leaf, const SceneObject& object) {
+    const NodeInstance& node = *leaf.outermost;
+    const float step_size = leaf.step_size;
     const bool is_volume = object.geometry->is_volume;
     if (!is_volume && !(step_size > 0)) return false;
     const ShaderProgram& shader = *object.shaders[0];
@@ -53,7 +54,7 @@ bool Compiler::add_volume(const NodeInstance& node, const NodeInstance& source,
     if (object.matte)
         diagnostics_.warning(Code::ParamPending, "matte has no effect on volumes yet",
                              node.where("matte"), "the volume is seen as any other");
-    if (const auto* groups = node.find<bool>("use_shadow_group"); groups != nullptr && *groups)
+    if (leaf.use_shadow_group)
         diagnostics_.warning(Code::ParamPending, "shadow_group has no effect on volumes yet",
                              node.where("use_shadow_group"),
                              "the volume casts shadows in the light of every light");
@@ -61,8 +62,8 @@ bool Compiler::add_volume(const NodeInstance& node, const NodeInstance& source,
         diagnostics_.warning(Code::ParamPending, "self_shadows off has no effect on volumes yet",
                              node.where("self_shadows"), "the volume casts shadows on itself");
     SceneVolume volume;
-    volume.object = std::move(object);
-    check_channels(source, volume);
+    volume.object = object;
+    check_channels(*leaf.shape, volume);
     scene_->volumes.push_back(std::move(volume));
     return true;
 }

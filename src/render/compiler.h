@@ -8,12 +8,14 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "render/assets.h"
 #include "render/motion.h"
 #include "render/render.h"
 #include "render/scene.h"
+#include "render/shape_leaf.h"
 #include "scene/graph.h"
 #include "scene/light_filter.h"
 #include "scene/node_context.h"
@@ -46,9 +48,6 @@ class Compiler {
     [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(const NodeInstance& node);
 
   private:
-    /// A shape after following instances: where its geometry is and what instances change.
-    struct Placed;
-
     // compile.cpp
     void read_settings();
     void read_region();
@@ -76,22 +75,40 @@ class Compiler {
 
     // compile_shapes.cpp
     void make_shapes();
-    void place_shape(const NodeInstance& node);
-    [[nodiscard]] std::vector<Mat4f> placement_of(const std::vector<const ShapeCommon*>& moved_by,
-                                                  const ShapeGeometry& geometry) const;
     [[nodiscard]] const ShapeGeometry* shared_geometry(const NodeInstance& node);
-    [[nodiscard]] std::vector<const ShaderProgram*> shaders_of(const NodeInstance& node,
-                                                               const NodeInstance& source);
-    [[nodiscard]] std::string object_label_of(const NodeInstance& node,
-                                              const NodeInstance& source);
-    void add_surface_shader(const ShaderProgram* program);
-    [[nodiscard]] const LightSampler* lights_of(const NodeInstance& node);
-    [[nodiscard]] std::vector<bool> shadow_lights_of(const NodeInstance& node);
-    /// If the shape holds a volume, makes it one.
-    bool add_volume(const NodeInstance& node, const NodeInstance& source, SceneObject& object,
-                    float step_size);
-    void check_channels(const NodeInstance& node, const SceneVolume& volume);
     void resample_motion(ShapeGeometry& geometry, MotionRange range) const;
+
+    // compile_instances.cpp
+    /// Gives `sink` all shapes that the node places, in the space that the node lies in.
+    void find_leaves(const NodeInstance& node, const LeafUse& use, const LeafSink& sink);
+    void leaves_of_instance(const NodeInstance& node, const ShapeGeometry& geometry,
+                            const LeafUse& use, const LeafSink& sink);
+    void leaves_of_procedural(const NodeInstance& node, const NodeScope& inside,
+                              const LeafUse& use, const LeafSink& sink);
+    void leaves_of_instancer(const NodeInstance& node, const ShapeGeometry& geometry,
+                             const LeafUse& use, const LeafSink& sink);
+    [[nodiscard]] std::vector<ShapeLeaf> leaves_for_instances(const NodeInstance& node,
+                                                              const NodeRef& ref, std::uint32_t n,
+                                                              const LeafUse& use);
+    [[nodiscard]] const NodeInstance* placed_shape(const NodeInstance& by, const NodeRef& ref,
+                                                   const char* param);
+    /// A lineage with one more step, kept by the scene. lineage: null for the shape itself.
+    [[nodiscard]] const Lineage* extend(const Lineage* lineage, const NodeInstance& node,
+                                        std::uint32_t n_instances);
+    [[nodiscard]] bool too_many_leaves(const NodeInstance& node, std::uint64_t numbers);
+
+    // compile_objects.cpp
+    void place(ShapeLeaf&& leaf);
+    [[nodiscard]] bool set_placement(const ShapeLeaf& leaf, SceneObject& object);
+    [[nodiscard]] const ShaderList& shaders_of(const ShapeLeaf& leaf);
+    [[nodiscard]] Name object_label_of(const NodeInstance& node);
+    void add_surface_shader(const ShaderProgram* program);
+    [[nodiscard]] std::vector<std::uint32_t> light_indices(const Array<NodeRef>& group) const;
+    [[nodiscard]] const LightSampler* lights_of(const Array<NodeRef>& group);
+    [[nodiscard]] const std::vector<bool>* shadow_lights_of(const Array<NodeRef>& group);
+    /// If the shape holds a volume, makes it one.
+    bool add_volume(const ShapeLeaf& leaf, const SceneObject& object);
+    void check_channels(const NodeInstance& node, const SceneVolume& volume);
 
     // compile_displacement.cpp
     /// Moves the vertices of a mesh whose node has a disp_map.
@@ -103,9 +120,10 @@ class Compiler {
     void make_lights();
     void set_portals(const NodeInstance& last);
     void read_shutter();
+    void make_lights_of(const NodeScope& scope, const Mat4f& outer, const NodeInstance*& portal);
     void add_light(const NodeInstance& node, std::unique_ptr<Light> light, const Mat4f& place);
     [[nodiscard]] std::vector<Mat4f> light_stops(const NodeInstance& node);
-    /// The lights of the scene that a node of the file stands for.
+    /// The lights of the scene that a node of the file stands for: several if it moves, or where procedurals share it.
     [[nodiscard]] std::vector<std::uint32_t> indices_of_light(NodeRef light) const;
     void add_filters(const NodeInstance& node, const Mat4f& place, SceneLight& light);
     [[nodiscard]] static LightPlace light_place(const NodeInstance& node, const Mat4f& place);
@@ -143,6 +161,10 @@ class Compiler {
     std::map<const NodeInstance*, std::vector<std::uint32_t>> lights_of_node_;
     std::map<const NodeInstance*, const DisplacementMap*> bumps_;  ///< of displaced meshes
     std::map<std::vector<std::uint32_t>, const LightSampler*> samplers_by_group_;
+    std::map<std::vector<std::uint32_t>, const std::vector<bool>*> shadow_lights_by_group_;
+    /// By shader or list of shaders, their number, and object label.
+    std::map<std::tuple<const void*, std::uint32_t, const void*>, ShaderList*> shader_lists_;
+    std::uint64_t n_leaves_ = 0;
     std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
     std::map<Event, std::uint32_t> event_index_;
     std::vector<Name> written_aovs_;  ///< AOVs that shaders write, by number
@@ -175,8 +197,11 @@ class CompileContext final : public NodeContext {
     bool ignore_missing_textures() const override { return compiler_.ignore_missing_textures(); }
     Frame frame() const override;
     std::unique_ptr<ShapeGeometry> geometry_of(NodeRef shape, Mat4f& world_from_object) override;
+    /// The node lies in procedurals with this matrix, and so does what it names.
+    void set_outer(const Mat4f& outer) { outer_ = outer; }
 
   private:
+    Mat4f outer_;
     Compiler& compiler_;
     const NodeInstance* node_;
     Name name_;

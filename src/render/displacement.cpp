@@ -58,13 +58,14 @@ DisplacementMap::DisplacementMap(TriangleMesh rest, std::vector<const ShaderProg
     if (rest.normals.empty() || rest.normal_indices != rest.indices) give_averaged_normals(rest);
     rest_.data = std::move(rest);
     in_world_.geometry = in_object_.geometry = &rest_;
-    in_world_.node = in_object_.node = object.node;
+    in_world_.lineage = in_object_.lineage = object.lineage;
     in_world_.name = in_object_.name = object.name;
     in_world_.services = in_object_.services = object.services;
     in_world_.id = in_object_.id = object.id;
     in_world_.world_from_object = {object.world_from_object[0]};
     in_world_.object_from_world = {object.object_from_world[0]};
-    in_object_.world_from_object = in_object_.object_from_world = {Mat4f{}};
+    static const Mat4f kIdentity;
+    in_object_.world_from_object = in_object_.object_from_world = {&kIdentity, 1};
     in_world_.shaders = in_object_.shaders = programs_;
 }
 

@@ -149,7 +149,7 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore, s
         const Surface surface = make_surface(object, ray, hit, {});
         const bool one_sided =
             !surface.at.entering && (object.sidedness & ray_bit(RayType::Shadow)) == 0;
-        const bool casts = object.shadow_lights.empty() || object.shadow_lights[light];
+        const bool casts = object.shadow_lights == nullptr || (*object.shadow_lights)[light];
         if (&object != ignore && !one_sided && casts) {
             if (!object.may_be_transparent && !object.may_tint_shadows) return dark;
             ShadePoint at = surface.at;

@@ -74,8 +74,9 @@ using ScenePtr = std::unique_ptr<Scene, SceneDelete>;
 
 /// Compiles everything; null if there is an error (all of them are in `diagnostics`).
 ///
-/// The graph must outlive the scene. Cost: geometry is copied and its acceleration structure built.
-[[nodiscard]] ScenePtr compile_scene(const SceneGraph& graph, const RenderOptions& options,
+/// Operators edit the graph and procedurals are read into it first, once (scene/assemble.h). The graph must outlive the
+/// scene. Cost: geometry is copied and its acceleration structure built.
+[[nodiscard]] ScenePtr compile_scene(SceneGraph& graph, const RenderOptions& options,
                                      Diagnostics& diagnostics);
 
 [[nodiscard]] SceneSummary summarize(const Scene& scene);

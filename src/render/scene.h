@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "core/arena.h"
 #include "core/event.h"
 #include "core/sampling.h"
 #include "io/texture.h"
@@ -43,6 +45,12 @@ struct SceneLight {
     int n_samples = 1, n_volume_samples = 1;
 };
 
+/// Shaders of objects, by the shader_index of their geometry.
+struct ShaderList {
+    std::vector<const ShaderProgram*> programs;                 ///< at least one
+    bool may_be_transparent = false, may_tint_shadows = false;  ///< one of them may
+};
+
 /// What options and command line say, put together.
 struct RenderSettings {
     int width = 320, height = 240;
@@ -78,6 +86,11 @@ class Scene {
     std::vector<std::unique_ptr<LinkedColor>> colors;
     std::unique_ptr<SceneServices> services;  ///< what shaders may ask of the scene
     std::vector<SceneObject> objects;
+    // What objects point to.
+    Arena matrices{1U << 20U};
+    std::deque<Lineage> lineages;
+    std::deque<ShaderList> shader_lists;
+    std::deque<std::vector<bool>> shadow_lights;
     std::vector<SceneLight> lights;
     std::vector<std::unique_ptr<Light>> portals;  ///< openings for skies: no lights themselves
     std::vector<std::uint32_t> infinite_lights;   ///< indices of lights that rays to infinity meet

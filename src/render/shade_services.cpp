@@ -18,13 +18,6 @@ const SceneObject& object_of(const ShadePoint& at) {
     return *static_cast<const SceneObject*>(at.shape);
 }
 
-/// The node that an instance places; null for other shapes.
-const NodeInstance* placed_by(const NodeInstance& node) {
-    static const Name kNode("node");
-    const auto* ref = node.find<NodeRef>(kNode);
-    return ref == nullptr ? nullptr : ref->node;
-}
-
 /// Value number `i` of user data as numbers.
 ShaderValue number_at(const UserData& data, std::size_t i) {
     const auto load = [&]<class T>(T) { return static_cast<const T*>(data.data)[i]; };
@@ -58,8 +51,8 @@ bool is_number(ParamType type) {
 bool in_trace_set(const SceneObject& object, const Probe& probe) {
     if (probe.trace_set.empty()) return true;
     const Array<Name>* sets = nullptr;
-    for (const NodeInstance* node = object.node; node != nullptr; node = placed_by(*node)) {
-        sets = &node->type().shape_common(node->block())->trace_sets;
+    for (auto step = object.lineage->rbegin(); step != object.lineage->rend(); ++step) {
+        sets = &step->node->type().shape_common(step->node->block())->trace_sets;
         if (!sets->empty()) break;
     }
     if (sets == nullptr || sets->empty()) return true;
@@ -74,6 +67,7 @@ bool in_trace_set(const SceneObject& object, const Probe& probe) {
 struct SceneServices::Found {
     const UserData* data = nullptr;
     const NodeInstance* node = nullptr;
+    std::size_t element = 0;  ///< of constant data: which of its values
 };
 
 /// The values that meet at a point, and their shares.
@@ -128,14 +122,20 @@ void SceneServices::prepare(const NodeInstance& shape) {
 }
 
 SceneServices::Found SceneServices::find(const ShadePoint& at, Name name) const {
-    for (const NodeInstance* node = object_of(at).node; node != nullptr;) {
-        const NodeInstance* next = placed_by(*node);
-        const UserData* data = node->find_user_data(name);
+    const SceneObject& object = object_of(at);
+    // A volume without a shape (the atmosphere) has none.
+    if (object.lineage == nullptr) return {};
+    for (std::size_t i = object.lineage->size(); i-- > 0;) {
+        const LineageStep& step = (*object.lineage)[i];
+        for (const auto& [shown, data] : step.by_instance)
+            if (shown == name)
+                return {data, step.node,
+                        std::min(object.instance / step.stride % step.n, data->n - 1)};
+        const UserData* data = step.node->find_user_data(name);
         // Only what is the same everywhere can be given to an instance.
         const bool fits = data != nullptr && data->n > 0 && data->data != nullptr &&
-                          (next == nullptr || data->user_class == UserDataClass::Constant);
-        if (fits) return {data, node};
-        node = next;
+                          (i == 0 || data->user_class == UserDataClass::Constant);
+        if (fits) return {data, step.node, 0};
     }
     return {};
 }
@@ -148,7 +148,7 @@ bool SceneServices::spot_of(const ShadePoint& at, const Found& found, Spot& out)
     const auto* curves = std::get_if<CurveList>(&geometry.data);
     out = {};
     switch (data.user_class) {
-        case UserDataClass::Constant: break;
+        case UserDataClass::Constant: out.parts[0].index = found.element; break;
         case UserDataClass::Uniform: out.parts[0].index = at.face; break;
         case UserDataClass::Varying:
         case UserDataClass::Indexed: {

@@ -28,6 +28,20 @@ bool NodeInstance::is_set(Name param) const {
     return info != nullptr && set_[static_cast<std::size_t>(info - type_.params.data())];
 }
 
+bool NodeInstance::has_default(Name param) const {
+    const ParamInfo* info = type_.find(param);
+    if (info == nullptr) return true;
+    const std::byte* value = block_ + info->offset;
+    const std::byte* standard = type_.default_block.data() + info->offset;
+    if (!info->is_array) return std::memcmp(value, standard, type_size(info->type)) == 0;
+    // Every Array<T> has the same layout.
+    const auto& a = *reinterpret_cast<const Array<std::byte>*>(value);
+    const auto& b = *reinterpret_cast<const Array<std::byte>*>(standard);
+    const std::size_t bytes = std::size_t{a.n} * a.n_keys * type_size(info->type);
+    return a.n == b.n && a.n_keys == b.n_keys &&
+           (bytes == 0 || std::memcmp(a.data, b.data, bytes) == 0);
+}
+
 SourceSpan NodeInstance::where(Name param) const {
     const ParamInfo* info = type_.find(param);
     if (info == nullptr) return where_;
@@ -69,16 +83,29 @@ std::vector<const NodeInstance*> NodeInstance::references() const {
     return out;
 }
 
-SceneGraph::SceneGraph(const Registry& registry) : registry_(&registry) {}
+NodeInstance* NodeScope::find(Name name) const {
+    const NodeScope* scope = this;
+    for (;; scope = scope->outer) {
+        if (const auto found = scope->names.find(name); found != scope->names.end())
+            return found->second;
+        if (scope->outer == nullptr) break;
+    }
+    if (!name.view().starts_with('^')) return nullptr;
+    const auto found = scope->names.find(Name(name.view().substr(1)));
+    return found == scope->names.end() ? nullptr : found->second;
+}
 
-const NodeInstance* SceneGraph::find(Name name) const {
-    const auto found = names_.find(name);
-    return found == names_.end() ? nullptr : found->second;
+SceneGraph::SceneGraph(const Registry& registry) : registry_(&registry) {
+    scopes_.push_back(std::make_unique<NodeScope>());
 }
-NodeInstance* SceneGraph::find(Name name) {
-    const auto found = names_.find(name);
-    return found == names_.end() ? nullptr : found->second;
+
+const NodeScope* SceneGraph::contents(const NodeInstance& procedural) const {
+    const auto found = contents_.find(&procedural);
+    return found == contents_.end() ? nullptr : found->second;
 }
+
+const NodeInstance* SceneGraph::find(Name name) const { return scopes_.front()->find(name); }
+NodeInstance* SceneGraph::find(Name name) { return scopes_.front()->find(name); }
 
 bool SceneGraph::set(Name node, std::string_view param, std::string_view value,
                      Diagnostics& diagnostics) {
@@ -86,7 +113,7 @@ bool SceneGraph::set(Name node, std::string_view param, std::string_view value,
     if (instance == nullptr && node.view() == "options") instance = add(node, node, diagnostics);
     if (instance == nullptr) {
         std::vector<std::string> names;
-        for (const auto& [name, unused] : names_)
+        for (const auto& [name, unused] : scopes_.front()->names)
             names.push_back(name.str());
         diagnostics.error(Code::UnknownReference, "the scene has no node \"" + node.str() + "\"",
                           {}, did_you_mean(node.view(), names));

@@ -97,6 +97,8 @@ class NodeInstance {
 
     /// Whether the file (or an edit) gives the parameter a value or a link.
     [[nodiscard]] bool is_set(Name param) const;
+    /// Whether the parameter has its default value, also if the file writes it.
+    [[nodiscard]] bool has_default(Name param) const;
     /// Where the value of `param` was written; where the node starts if it was not.
     [[nodiscard]] SourceSpan where(Name param) const;
     /// Where the node starts.
@@ -115,6 +117,7 @@ class NodeInstance {
 
   private:
     friend class GraphEditor;
+    friend class SwitchBoard;
 
     template <class T>
     static bool holds(const ParamInfo& info) {
@@ -166,15 +169,33 @@ struct SkippedNode {
     SourceSpan where;  ///< where it starts
 };
 
+/// The nodes of one file with their names: the scene itself, or what a procedural reads.
+struct NodeScope {
+    const NodeScope* outer =
+        nullptr;       ///< where names are looked for next; null: this is the scene itself
+    std::string file;  ///< that was read; empty for the scene itself
+    std::vector<std::unique_ptr<NodeInstance>> nodes;     ///< in file order
+    std::vector<std::unique_ptr<NodeInstance>> disabled;  ///< taken out by operators
+    std::unordered_map<Name, NodeInstance*> names;
+    std::unordered_map<Name, Name> skipped_types;  ///< type of a skipped node by its name
+
+    /// The node of that name here or further out, or null. `^name` is a name of the scene itself.
+    [[nodiscard]] NodeInstance* find(Name name) const;
+};
+
 class SceneGraph {
   public:
     explicit SceneGraph(const Registry& registry);
 
-    /// All nodes in file order.
+    /// All nodes of the scene itself in file order.
     [[nodiscard]] const std::vector<std::unique_ptr<NodeInstance>>& nodes() const {
-        return nodes_;
+        return scopes_.front()->nodes;
     }
-    /// The node of that name, or null. `options` is found as "options".
+    /// The scene itself first, then what procedurals hold. Procedurals of one file that cannot differ share theirs.
+    [[nodiscard]] const std::vector<std::unique_ptr<NodeScope>>& scopes() const { return scopes_; }
+    /// What a procedural holds; null for other nodes, or if its file could not be read.
+    [[nodiscard]] const NodeScope* contents(const NodeInstance& procedural) const;
+    /// The node of that name in the scene itself, or null. `options` is found as "options".
     [[nodiscard]] const NodeInstance* find(Name name) const;
     [[nodiscard]] NodeInstance* find(Name name);
     /// The options node, or null if the scene has none.
@@ -199,14 +220,17 @@ class SceneGraph {
 
   private:
     friend class GraphEditor;
+    friend class SceneAssembler;
+    friend class SwitchBoard;
 
     const Registry* registry_;
-    std::vector<std::unique_ptr<NodeInstance>> nodes_;
-    std::unordered_map<Name, NodeInstance*> names_;
+    std::vector<std::unique_ptr<NodeScope>> scopes_;
+    std::unordered_map<const NodeInstance*, NodeScope*> contents_;  ///< by procedural
     NodeInstance* options_ = nullptr;
     std::vector<SkippedNode> skipped_;
-    std::unordered_map<Name, Name> skipped_types_;  ///< type of a skipped node by its name
     std::size_t n_unknown_params_ = 0;
+    UnknownPolicy unknown_ = UnknownPolicy::Warn;  ///< as the scene was built
+    bool assembled_ = false;
 };
 
 /// Makes the graph of a document. Never fails as a whole: what is wrong is reported and left at its default.

@@ -44,13 +44,6 @@ bool is_reference(ParamType type) { return type == ParamType::Node || type == Pa
 using AnyArray = Array<std::byte>;
 AnyArray& array_at(std::byte* address) { return *reinterpret_cast<AnyArray*>(address); }
 
-std::vector<std::string> param_names(const NodeType& type) {
-    std::vector<std::string> names;
-    for (const ParamInfo& info : type.params)
-        names.push_back(info.name.str());
-    return names;
-}
-
 std::string label_of(const NodeType& type, const ParamText& param) {
     std::string out = fmt::format("{}.{}", type.name.view(), param.name.view());
     if (param.element >= 0) out += fmt::format("[{}]", param.element);
@@ -64,10 +57,22 @@ int speciality(const Link& link) { return link.component >= 0 ? 2 : link.element
 }  // namespace
 
 GraphEditor::GraphEditor(SceneGraph& graph, UnknownPolicy unknown, Diagnostics& diagnostics)
+    : GraphEditor(graph, *graph.scopes_.front(), unknown, diagnostics) {}
+
+GraphEditor::GraphEditor(SceneGraph& graph, NodeScope& scope, UnknownPolicy unknown,
+                         Diagnostics& diagnostics)
     : graph_(graph),
+      scope_(scope),
       unknown_(unknown),
       diagnostics_(&diagnostics),
       all_diagnostics_(diagnostics) {}
+
+std::vector<std::string> GraphEditor::param_names(const NodeType& type) {
+    std::vector<std::string> names;
+    for (const ParamInfo& info : type.params)
+        names.push_back(info.name.str());
+    return names;
+}
 
 std::size_t GraphEditor::index_of(const NodeInstance& node, const ParamInfo& info) {
     return static_cast<std::size_t>(&info - node.type().params.data());
@@ -79,6 +84,7 @@ std::byte* GraphEditor::address(NodeInstance& node, const ParamInfo& info) {
 // ---- nodes ----
 
 void GraphEditor::build(const Document& document) {
+    graph_.unknown_ = unknown_;
     std::vector<std::pair<const NodeBlock*, NodeInstance*>> read;
     add_nodes(document, read);
     // All nodes exist before the first link is read: links point forward and backward.
@@ -86,7 +92,7 @@ void GraphEditor::build(const Document& document) {
         read_node(document, *block, *node);
     report_repeated();
     std::vector<NodeInstance*> all;
-    for (const auto& node : graph_.nodes_)
+    for (const auto& node : scope_.nodes)
         all.push_back(node.get());
     check_cycles(all, true);
 }
@@ -98,7 +104,7 @@ void GraphEditor::add_nodes(const Document& document,
         const NodeType* type = graph_.registry_->find(block.type);
         if (type == nullptr) {
             graph_.skipped_.push_back({block.type, block.name, where});
-            if (!block.name.empty()) graph_.skipped_types_.emplace(block.name, block.type);
+            if (!block.name.empty()) scope_.skipped_types.emplace(block.name, block.type);
             if (unknown_ == UnknownPolicy::Ignore) continue;
             Error error{
                 Code::UnknownNode,
@@ -112,13 +118,16 @@ void GraphEditor::add_nodes(const Document& document,
             repeated("node " + block.type.str(), std::move(error));
             continue;
         }
+        // What a procedural reads brings no options of its own.
+        if (type->kind == NodeKind::Options && scope_.outer != nullptr) continue;
         // Arnold has one options node: further blocks add to it.
         if (type->kind == NodeKind::Options && graph_.options_ != nullptr) {
             read.emplace_back(&block, graph_.options_);
             continue;
         }
-        const NodeInstance* twin = block.name.empty() ? nullptr : graph_.find(block.name);
-        if (twin != nullptr) {
+        const auto named = scope_.names.find(block.name);
+        const bool taken = !block.name.empty() && named != scope_.names.end();
+        if (const NodeInstance* twin = taken ? named->second : nullptr; twin != nullptr) {
             Error error{Code::DuplicateName,
                         fmt::format("two nodes are named \"{}\": links go to the first",
                                     block.name.view()),
@@ -137,16 +146,16 @@ NodeInstance* GraphEditor::add(const NodeType& type, Name name, bool named, Sour
     const bool is_options = type.kind == NodeKind::Options;
     if (!named)
         name = is_options ? Name("options")
-                          : Name(fmt::format("<{} {}>", type.name.view(), graph_.nodes_.size()));
+                          : Name(fmt::format("<{} {}>", type.name.view(), scope_.nodes.size()));
     auto node = std::make_unique<NodeInstance>(type, name, std::move(where));
     node->named_ = named;
-    if (named || is_options) graph_.names_.emplace(name, node.get());
+    if (named || is_options) scope_.names.emplace(name, node.get());
     if (is_options) {
-        graph_.names_.emplace(Name("options"), node.get());
+        scope_.names.emplace(Name("options"), node.get());
         graph_.options_ = node.get();
     }
-    graph_.nodes_.push_back(std::move(node));
-    return graph_.nodes_.back().get();
+    scope_.nodes.push_back(std::move(node));
+    return scope_.nodes.back().get();
 }
 
 void GraphEditor::read_node(const Document& document, const NodeBlock& block, NodeInstance& node) {
@@ -379,19 +388,7 @@ void GraphEditor::check_duplicate(const NodeInstance& node, const ParamInfo& inf
 void GraphEditor::check_pending(const NodeInstance& node, const ParamInfo& info,
                                 const Statement& statement) {
     if (!info.pending) return;
-    const std::byte* value = node.block_ + info.offset;
-    const std::byte* standard = node.type().default_block.data() + info.offset;
-    bool same = false;
-    if (info.is_array) {
-        const auto& a = *reinterpret_cast<const AnyArray*>(value);
-        const auto& b = *reinterpret_cast<const AnyArray*>(standard);
-        const std::size_t bytes = std::size_t{a.n} * a.n_keys * type_size(info.type);
-        same = a.n == b.n && a.n_keys == b.n_keys &&
-               (bytes == 0 || std::memcmp(a.data, b.data, bytes) == 0);
-    } else {
-        same = std::memcmp(value, standard, type_size(info.type)) == 0;
-    }
-    if (same && !node.is_linked(info.name)) return;
+    if (node.has_default(info.name) && !node.is_linked(info.name)) return;
     const std::string name = fmt::format("{}.{}", node.type().name.view(), info.name.view());
     repeated("pending " + name, {Code::ParamPending,
                                  fmt::format("{} is not supported yet: it has no effect", name),
@@ -454,7 +451,7 @@ ParamReader GraphEditor::reader(Diagnostics& diagnostics, bool quiet_references)
     return ParamReader(
         [this, quiet_references](const std::string& name,
                                  const SourceSpan& where) -> const NodeInstance* {
-            return quiet_references ? graph_.find(Name(name)) : find_node(name, where);
+            return quiet_references ? scope_.find(Name(name)) : find_node(name, where);
         },
         run_bytes_, diagnostics);
 }
@@ -466,7 +463,7 @@ bool GraphEditor::reads_as_link(const ParamInfo& info, const ParamText& param,
     if (is_reference(info.type)) return false;
     if (info.type == ParamType::String) {
         // A text, unless it is the name of a node that gives texts.
-        const NodeInstance* node = graph_.find(Name(text));
+        const NodeInstance* node = scope_.find(Name(text));
         return node != nullptr && node->type().output == OutputType::String;
     }
     if (param.component >= 0) return true;
@@ -474,7 +471,7 @@ bool GraphEditor::reads_as_link(const ParamInfo& info, const ParamText& param,
     if (info.type == ParamType::Enum && find_enumerator(info, text) >= 0) return false;
     // A word that is neither a choice nor a node is more likely a misspelt choice.
     const bool few_words = info.type == ParamType::Bool || info.type == ParamType::Enum;
-    return !few_words || text.empty() || text == "NULL" || graph_.find(Name(text)) != nullptr;
+    return !few_words || text.empty() || text == "NULL" || scope_.find(Name(text)) != nullptr;
 }
 
 void GraphEditor::add_link(NodeInstance& node, const ParamInfo& info, const Statement& statement,
@@ -541,17 +538,17 @@ bool GraphEditor::link_fits(const NodeInstance& node, const ParamInfo& info, con
 }
 
 GraphEditor::Found GraphEditor::find_source(const std::string& text, const SourceSpan& where) {
-    if (const NodeInstance* node = graph_.find(Name(text))) return {node, -1};
+    if (const NodeInstance* node = scope_.find(Name(text))) return {node, -1};
     // Names may contain dots, so only now is the last one looked at.
     const std::size_t dot = text.rfind('.');
-    if (dot == std::string::npos || dot == 0 || graph_.skipped_types_.contains(Name(text))) {
+    if (dot == std::string::npos || dot == 0 || scope_.skipped_types.contains(Name(text))) {
         missing_node(text, where, Severity::Error);
         return {};
     }
     const std::string name = text.substr(0, dot), suffix = text.substr(dot + 1);
-    const NodeInstance* node = graph_.find(Name(name));
+    const NodeInstance* node = scope_.find(Name(name));
     if (node == nullptr) {
-        missing_node(graph_.skipped_types_.contains(Name(name)) ? name : text, where,
+        missing_node(scope_.skipped_types.contains(Name(name)) ? name : text, where,
                      Severity::Error);
         return {};
     }
@@ -566,7 +563,7 @@ GraphEditor::Found GraphEditor::find_source(const std::string& text, const Sourc
 }
 
 const NodeInstance* GraphEditor::find_node(const std::string& name, const SourceSpan& where) {
-    if (const NodeInstance* node = graph_.find(Name(name))) return node;
+    if (const NodeInstance* node = scope_.find(Name(name))) return node;
     // Arnold renders shapes whose shader is missing, and exported scenes have such: a value that is missing is worse.
     missing_node(name, where,
                  unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning);
@@ -575,8 +572,11 @@ const NodeInstance* GraphEditor::find_node(const std::string& name, const Source
 
 void GraphEditor::missing_node(const std::string& name, const SourceSpan& where,
                                Severity severity) {
-    const auto skipped = graph_.skipped_types_.find(Name(name));
-    if (skipped != graph_.skipped_types_.end()) {
+    const NodeScope* scope = &scope_;
+    while (scope->outer != nullptr && !scope->skipped_types.contains(Name(name)))
+        scope = scope->outer;
+    const auto skipped = scope->skipped_types.find(Name(name));
+    if (skipped != scope->skipped_types.end()) {
         if (unknown_ != UnknownPolicy::Ignore)
             diagnostics_->warning(
                 Code::UnknownReference,
@@ -589,10 +589,11 @@ void GraphEditor::missing_node(const std::string& name, const SourceSpan& where,
     std::string hint;
     // Comparing with every name of a large scene again and again would take longer than reading it.
     if (n_compared_ < kMaxCompared) {
-        n_compared_ += graph_.names_.size();
         std::vector<std::string> names;
-        for (const auto& [known, node] : graph_.names_)
-            names.push_back(known.str());
+        for (const NodeScope* from = &scope_; from != nullptr; from = from->outer)
+            for (const auto& [known, node] : from->names)
+                names.push_back(known.str());
+        n_compared_ += names.size();
         hint = did_you_mean(name, names);
     }
     diagnostics_->add({Code::UnknownReference,
@@ -601,75 +602,6 @@ void GraphEditor::missing_node(const std::string& name, const SourceSpan& where,
                        hint,
                        {},
                        severity});
-}
-
-// ---- edits ----
-
-std::optional<ValueText> GraphEditor::lex_edit(const ParamInfo& info, std::string_view param,
-                                               std::string_view value,
-                                               std::shared_ptr<const SourceText>& source) {
-    const std::string name = fmt::format("<{}>", param);
-    const auto lex = [&](std::string text, Diagnostics& report) -> std::optional<ValueText> {
-        source = std::make_shared<const SourceText>(SourceText{name, std::move(text)});
-        AssLexer lexer(source->text);
-        std::optional<ValueText> read = lex_value(lexer, source, 0, param, report);
-        if (!read || lexer.peek() == '\0') return read;
-        report.error(Code::AssSyntax, "one value is expected", {source, lexer.position(), 1},
-                     "a text with blanks needs quotes");
-        return std::nullopt;
-    };
-    if (info.type == ParamType::String && !value.starts_with('"')) {
-        // On a command line texts have no quotes of their own.
-        Diagnostics unused;
-        std::optional<ValueText> read = lex(std::string(value), unused);
-        return read && read->form == ValueForm::Array ? read
-                                                      : lex(quote_ass(value), *diagnostics_);
-    }
-    return lex(std::string(value), *diagnostics_);
-}
-
-bool GraphEditor::set(NodeInstance& node, std::string_view param, std::string_view value) {
-    const std::optional<ParamName> name = parse_param_name(param);
-    const ParamInfo* info = name ? node.type().find(Name(name->base)) : nullptr;
-    const std::string target = fmt::format("{}.{}", node.name().view(), param);
-    if (info == nullptr) {
-        const std::string guess =
-            did_you_mean(name ? name->base : param, param_names(node.type()));
-        diagnostics_->error(
-            Code::UnknownParam,
-            fmt::format("{} has no parameter \"{}\"", node.type().name.view(), param), {},
-            fmt::format("{}`lightsieve nodes {}` lists all of them",
-                        guess.empty() ? "" : guess + "   ", node.type().name.view()));
-        return false;
-    }
-    std::shared_ptr<const SourceText> source;
-    const std::optional<ValueText> read = lex_edit(*info, target, value, source);
-    if (!read) return false;
-    const ParamText statement{Name(name->base), name->element, name->component, {},
-                              {0, 0, 0},        *read};
-
-    // Keep what an error must bring back.
-    const std::size_t n_errors = diagnostics_->n_errors(), index = index_of(node, *info);
-    const std::vector<std::byte> block(node.block_, node.block_ + node.type().block_size);
-    const std::vector<Link> links = node.links_;
-    const SourceSpan written = node.written_[index];
-    const bool was_set = node.set_[index];
-    std::erase_if(node.links_, [&](const Link& link) {
-        return link.param == info && (name->element < 0 || link.element == name->element) &&
-               (name->component < 0 || link.component == name->component);
-    });
-    given_.assign(node.type().params.size(), false);
-    read_param(node, {&statement, source, source});
-    if (diagnostics_->n_errors() == n_errors) check_cycles({&node}, false);
-    report_repeated();
-    if (diagnostics_->n_errors() == n_errors) return true;
-
-    std::copy(block.begin(), block.end(), node.block_);
-    node.links_ = links;
-    node.written_[index] = written;
-    node.set_[index] = was_set;
-    if (!retired_.empty()) node.arrays_[index] = std::move(retired_.front());
-    return false;
 }
 
 // ---- circles ----

@@ -18,13 +18,21 @@ inline constexpr std::int64_t kMaxLinkedElement = 4096;
 
 class GraphEditor {
   public:
+    /// For the scene itself.
     GraphEditor(SceneGraph& graph, UnknownPolicy unknown, Diagnostics& diagnostics);
+    /// For one of its scopes.
+    GraphEditor(SceneGraph& graph, NodeScope& scope, UnknownPolicy unknown,
+                Diagnostics& diagnostics);
 
     /// Adds all nodes of a document to an empty graph.
     void build(const Document& document);
     /// SceneGraph::set, ::add.
     bool set(NodeInstance& node, std::string_view param, std::string_view value);
     NodeInstance* add(const NodeType& type, Name name, bool named, SourceSpan where);
+    /// Gives user data a value written as in a file. Where the node has none of that name it is declared as `fresh` says.
+    bool set_user_data(NodeInstance& node, const UserData& fresh, std::string_view value);
+    /// Takes nodes out of the scope: nothing refers to them any more, and nobody finds them.
+    void disable(const std::vector<NodeInstance*>& nodes);
 
   private:
     /// A parameter with the texts that it lies in.
@@ -98,10 +106,12 @@ class GraphEditor {
                                       std::string_view value,
                                       std::shared_ptr<const SourceText>& source);
 
+    static std::vector<std::string> param_names(const NodeType& type);
     static std::size_t index_of(const NodeInstance& node, const ParamInfo& info);
     static std::byte* address(NodeInstance& node, const ParamInfo& info);
 
     SceneGraph& graph_;
+    NodeScope& scope_;
     UnknownPolicy unknown_;
     Diagnostics* diagnostics_;  ///< a scratch one while a parameter without effect is read
     Diagnostics& all_diagnostics_;

@@ -28,8 +28,9 @@ constexpr std::array<TypeRow, 14> kTypes{{
 }};
 
 /// In the order of NodeKind.
-constexpr std::array<std::string_view, 8> kKinds{"options", "camera", "shape",  "light",
-                                                 "shader",  "filter", "driver", "light filter"};
+constexpr std::array<std::string_view, 10> kKinds{
+    "options", "camera", "shape",        "light",    "shader",
+    "filter",  "driver", "light filter", "operator", "color manager"};
 
 }  // namespace
 

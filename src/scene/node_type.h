@@ -17,17 +17,18 @@
 
 namespace lightsieve {
 
-class Camera;        // scene/camera.h
-class ClosureSet;    // bsdf/closure.h
-class Driver;        // scene/driver.h
-class Light;         // scene/light.h
-class LightFilter;   // scene/light_filter.h
-class PixelFilter;   // scene/pixel_filter.h
-class NodeContext;   // scene/node_context.h
-struct LightCommon;  // scene/light.h
-struct LightPlace;   // scene/light_filter.h
-struct ShadePoint;   // scene/shade_point.h
-struct ShapeCommon;  // scene/shape.h
+class Camera;           // scene/camera.h
+class ClosureSet;       // bsdf/closure.h
+class Driver;           // scene/driver.h
+class Light;            // scene/light.h
+class LightFilter;      // scene/light_filter.h
+class PixelFilter;      // scene/pixel_filter.h
+class NodeContext;      // scene/node_context.h
+class OperatorContext;  // scene/operator_context.h
+struct LightCommon;     // scene/light.h
+struct LightPlace;      // scene/light_filter.h
+struct ShadePoint;      // scene/shade_point.h
+struct ShapeCommon;     // scene/shape.h
 struct ShapeGeometry;
 
 enum class NodeKind : std::uint8_t {
@@ -38,7 +39,9 @@ enum class NodeKind : std::uint8_t {
     Shader,
     Filter,
     Driver,
-    LightFilter
+    LightFilter,
+    Operator,
+    ColorManager
 };
 [[nodiscard]] std::string_view kind_text(NodeKind kind);
 
@@ -110,6 +113,7 @@ struct NodeType {
     std::unique_ptr<Camera> (*make_camera)(const void* block, NodeContext& context) = nullptr;
     std::unique_ptr<PixelFilter> (*make_filter)(const void* block, NodeContext& context) = nullptr;
     std::unique_ptr<Driver> (*make_driver)(const void* block, NodeContext& context) = nullptr;
+    void (*edit_scene)(const void* block, OperatorContext& context) = nullptr;
     const ShapeCommon* (*shape_common)(const void* block) = nullptr;
     const LightCommon* (*light_common)(const void* block) = nullptr;
 

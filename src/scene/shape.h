@@ -1,6 +1,7 @@
 // Shapes as plain geometry in object space, and the parameters that all shapes share.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -141,6 +142,34 @@ struct SimpleShape {
     float radius = 0.5F, second_radius = 0.5F;
 };
 
+/// What an instancer places: a value an instance in each array. An array of one value, or a last value, stands for all
+/// further instances; an empty one says nothing.
+struct InstanceList {
+    Array<NodeRef> nodes;            ///< what is placed
+    Array<std::uint32_t> node_idxs;  ///< which of them; empty: the first
+    Array<Mat4f> instance_matrix;    ///< world_from_object; motion keys as in any array
+    Array<float> instance_motion_start, instance_motion_end;  ///< times of the keys
+    // What an instance has instead of what the placed shape has.
+    Array<std::uint8_t> instance_visibility, instance_sidedness;
+    Array<NodeRef> instance_shader;
+    Array<bool> instance_inherit_xform;  ///< the placed shape's own matrix comes first
+    Array<bool> instance_matte, instance_invert_normals, instance_receive_shadows,
+        instance_self_shadows, instance_use_light_group, instance_use_shadow_group;
+    Array<std::uint32_t> instance_id;
+    Array<NodeRef> instance_light_group, instance_shadow_group;  ///< one list for all instances
+
+    /// How many instances there are.
+    [[nodiscard]] std::uint32_t size() const {
+        return instance_matrix.n > 1 ? instance_matrix.n
+                                     : std::max(instance_matrix.n, node_idxs.n);
+    }
+    /// The value of instance `i`; `fallback` where the array says nothing.
+    template <class T>
+    [[nodiscard]] static T value(const Array<T>& array, std::uint32_t i, T fallback) {
+        return array.empty() ? fallback : array.data[std::min(i, array.n - 1)];
+    }
+};
+
 class VolumeGrids;  // io/volume_grid.h
 
 struct ShapeGeometry {
@@ -152,6 +181,8 @@ struct ShapeGeometry {
     /// A ginstance gives no geometry of its own but another node's.
     NodeRef instance_of;
     bool inherit_xform = true;
+    /// An instancer gives none either: it lists what it places. Points into its node's block.
+    const InstanceList* instances = nullptr;
 };
 
 }  // namespace lightsieve

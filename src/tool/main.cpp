@@ -79,7 +79,7 @@ int run(const Command& command, Diagnostics& diagnostics) {
     Registry registry;
     add_all_nodes(registry);
     const Document document = read_ass_file(command.options.scene_path, diagnostics);
-    const SceneGraph graph = build_graph(document, registry, {}, diagnostics);
+    SceneGraph graph = build_graph(document, registry, {}, diagnostics);
     const ScenePtr scene = compile_scene(graph, command.options, diagnostics);
     if (!scene) return kInputError;
     const SceneSummary summary = summarize(*scene);

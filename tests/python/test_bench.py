@@ -18,7 +18,7 @@ def test_the_driver_measures_every_scene_and_the_cost_of_aovs(root: Path) -> Non
     assert done.returncode == 0, done.stderr
     document = json.loads(done.stdout)
     n_samples = document["resolution"] ** 2 * document["spp"]
-    assert [s["samples"] for s in document["scenes"]] == [n_samples] * 6
+    assert [s["samples"] for s in document["scenes"]] == [n_samples] * 7
     assert all(s["rays"] > n_samples for s in document["scenes"])
     # Each process starts afresh: none begins with what the one before it needed.
     assert all(s["peak_mb"] > s["start_mb"] + 5 for s in document["scenes"])

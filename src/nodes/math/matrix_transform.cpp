@@ -1,6 +1,5 @@
 // matrix_transform: a matrix from scale, rotation and translation.
-#include <array>
-
+#include "nodes/common/rotations.h"
 #include "nodes/math/math_node.h"
 
 namespace lightsieve {
@@ -9,7 +8,6 @@ namespace {
 /// Named in the order in which the parts act.
 enum class TransformOrder : std::int32_t { Srt, Str, Rst, Rts, Tsr, Trs };
 enum class RotationType : std::int32_t { Euler, AxisAngle };
-enum class RotationOrder : std::int32_t { Xyz, Xzy, Yxz, Yzx, Zxy, Zyx };
 
 struct MatrixTransform {
     TransformOrder transform_order = TransformOrder::Srt;
@@ -42,7 +40,7 @@ NodeType MatrixTransform::describe() {
     d.param("units", &MatrixTransform::units, "Of the angles.").names(angle_unit_names());
     d.param("rotation_order", &MatrixTransform::rotation_order,
             "Which axis comes first, for rotation_type euler.")
-        .names({"xyz", "xzy", "yxz", "yzx", "zxy", "zyx"});
+        .names(rotation_order_names());
     d.param("rotation", &MatrixTransform::rotation, "Angles about x, y and z.");
     d.param("axis", &MatrixTransform::axis, "Axis for rotation_type axis_angle.");
     d.param("angle", &MatrixTransform::angle, "Angle about it.");
@@ -52,29 +50,11 @@ NodeType MatrixTransform::describe() {
     return d.done();
 }
 
-/// Rotation by `angle` about a unit axis, row vectors. Source: Rodrigues' formula.
-Mat4f rotation_about(Vec3f k, float angle) {
-    const float s = std::sin(angle), c = std::cos(angle);
-    Mat4f out;
-    const std::array<Vec3f, 3> axes{Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, 0, 1}};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3f v = axes[i] * c + cross(k, axes[i]) * s + k * (dot(k, axes[i]) * (1 - c));
-        out.m[i] = {v.x, v.y, v.z, 0};
-    }
-    return out;
-}
-
 Mat4f MatrixTransform::rotated() const {
     const float unit = units == AngleUnits::Degrees ? kPi / 180 : 1.0F;
     if (rotation_type == RotationType::AxisAngle)
         return rotation_about(normalize(axis, {1, 0, 0}), angle * unit);
-    const std::array<Mat4f, 3> about{rotation_about({1, 0, 0}, rotation.x * unit),
-                                     rotation_about({0, 1, 0}, rotation.y * unit),
-                                     rotation_about({0, 0, 1}, rotation.z * unit)};
-    constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
-        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-    const auto& order = kOrders.at(static_cast<std::size_t>(rotation_order));
-    return about.at(order[0]) * about.at(order[1]) * about.at(order[2]);
+    return rotation_in_order(rotation * unit, rotation_order);
 }
 
 Mat4f MatrixTransform::eval(const ShadePoint&) const {

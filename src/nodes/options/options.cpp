@@ -192,8 +192,8 @@ void describe_frame(Describe<Options>& d) {
         .ignored();
     d.param("frame", &Options::frame, "Number of the frame, for file names and headers.");
     d.param("fps", &Options::fps, "Frames a second, for headers.").ignored();
-    d.param("reference_time", &Options::reference_time, "Time of reference for motion vectors.")
-        .ignored();
+    d.param("reference_time", &Options::reference_time, "Time of ignore_motion_blur.")
+        .unit("frames");
     d.param("meters_per_unit", &Options::meters_per_unit,
             "Length of a scene unit, for information.")
         .unit("m")
@@ -218,8 +218,7 @@ void describe_nodes(Describe<Options>& d) {
     d.param("shader_override", &Options::shader_override, "Shader that replaces all others.");
     d.param("atmosphere", &Options::atmosphere, "Shader of a volume that fills the scene.");
     d.param("operator", &Options::op,
-            "Last node of a chain that edits the scene before rendering.")
-        .pending();
+            "Last node of a chain that edits the scene before rendering.");
     d.param("aov_shaders", &Options::aov_shaders,
             "Shaders that run after each surface shader, to write AOVs.");
     d.param("drivers", &Options::drivers, "Drivers that list their own outputs.").pending();
@@ -250,31 +249,29 @@ void describe_switches(Describe<Options>& d) {
     d.param("error_color_bad_shader", &Options::error_color_bad_shader,
             "Arnold's colour for shaders that fail.")
         .ignored();
-    d.param("ignore_textures", &Options::ignore_textures, "Renders without textures.").pending();
-    d.param("ignore_shaders", &Options::ignore_shaders, "Renders without shaders.").pending();
+    d.param(
+        "ignore_textures", &Options::ignore_textures,
+        "Links to image nodes are cut: parameters keep the values that are written beside them.");
+    d.param("ignore_shaders", &Options::ignore_shaders, "Every shape is white clay.");
     d.param("ignore_atmosphere", &Options::ignore_atmosphere, "Renders without atmosphere.");
-    d.param("ignore_lights", &Options::ignore_lights, "Renders without lights.").pending();
-    d.param("ignore_shadows", &Options::ignore_shadows, "Renders without shadows.").pending();
+    d.param("ignore_lights", &Options::ignore_lights, "Renders without lights.");
+    d.param("ignore_shadows", &Options::ignore_shadows, "No light casts shadows.");
     d.param("ignore_subdivision", &Options::ignore_subdivision, "Renders without subdivision.");
     d.param("ignore_displacement", &Options::ignore_displacement, "Renders without displacement.");
-    d.param("ignore_bump", &Options::ignore_bump, "Renders without bump and normal maps.")
-        .pending();
-    d.param("ignore_motion", &Options::ignore_motion, "Renders as if nothing had motion keys.")
-        .pending();
+    d.param("ignore_bump", &Options::ignore_bump,
+            "Renders without bump and normal maps: no shader drives a normal.");
+    d.param("ignore_motion", &Options::ignore_motion,
+            "Renders as if nothing had motion keys but the first.");
     d.param("ignore_motion_blur", &Options::ignore_motion_blur,
-            "Renders with an instantaneous shutter.")
-        .pending();
-    d.param("ignore_dof", &Options::ignore_dof, "Renders without depth of field.").pending();
-    d.param("ignore_sss", &Options::ignore_sss, "Renders without subsurface scattering.")
-        .pending();
-    d.param("ignore_smoothing", &Options::ignore_smoothing, "Renders with face normals.")
-        .pending();
-    d.param("ignore_operators", &Options::ignore_operators,
-            "Skips operators, which act with `operator`.")
-        .ignored();
+            "Renders with an instantaneous shutter at reference_time.");
+    d.param("ignore_dof", &Options::ignore_dof, "Renders without depth of field.");
+    d.param("ignore_sss", &Options::ignore_sss, "Renders without subsurface scattering.");
+    d.param("ignore_smoothing", &Options::ignore_smoothing, "Renders meshes with face normals.");
+    d.param("ignore_operators", &Options::ignore_operators, "Operators do nothing.");
     d.param("ignore_imagers", &Options::ignore_imagers, "Skips imagers, which act with `imager`.")
         .ignored();
-    d.param("ignore_list", &Options::ignore_list, "Node types that are skipped.").pending();
+    d.param("ignore_list", &Options::ignore_list,
+            "Types of nodes that are left out, with all that refers to them.");
 }
 
 void describe_files(Describe<Options>& d) {
@@ -395,8 +392,7 @@ void describe_machine(Describe<Options>& d) {
             "Bump of displaced shapes in subsurface rays; acts with displacement.")
         .ignored();
     d.param("procedural_auto_instancing", &Options::procedural_auto_instancing,
-            "Arnold's sharing of procedurals.")
-        .ignored();
+            "Procedurals of the same file share what it holds.");
     d.param("procedural_force_expand", &Options::procedural_force_expand, "Arnold's start-up.")
         .ignored();
     d.param("preserve_scene_data", &Options::preserve_scene_data, "Arnold's memory.").ignored();
