@@ -314,6 +314,13 @@ class RenderOptions:
     def lpe_table(self, arg: str, /) -> None: ...
 
     @property
+    def rendering_space(self) -> str:
+        """Colour space that light is computed in; empty: as the scene says."""
+
+    @rendering_space.setter
+    def rendering_space(self, arg: str, /) -> None: ...
+
+    @property
     def isa(self) -> str:
         """Empty, `sse2`, `avx2` or `avx512`: pins the ray kernels."""
 

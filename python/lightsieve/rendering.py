@@ -44,6 +44,8 @@ class Settings(TypedDict, total=False):
     """Our extensions of the expression language are errors."""
     lpe_table: str
     """`reference` or `arnold7`: which reading of the built-in AOVs."""
+    rendering_space: str
+    """Colour space that light is computed in, by name; empty: as the scene says, or ACEScg."""
     isa: str
     """`sse2`, `avx2` or `avx512`: pins the ray kernels, for equal bits on unlike machines."""
 
@@ -104,6 +106,7 @@ def compile_scene(
     ]
     options.lpe_standard = settings.get("lpe_standard", False)
     options.lpe_table = settings.get("lpe_table", "")
+    options.rendering_space = settings.get("rendering_space", "")
     options.isa = settings.get("isa", "")
     if "region" in settings:
         options.set_region(*settings["region"])

@@ -70,7 +70,7 @@ struct NamedSpace {
     ColorSpace space;
 };
 
-constexpr ColorSpace linear(Primaries p) { return {p, Transfer::Linear, false}; }
+constexpr ColorSpace linear(Primaries p) { return {p, Transfer::Linear, false, nullptr}; }
 
 /// The first name of a space is the one that messages use. Names of OCIO's cg-config and studio-config, their
 /// aliases, ACES 1.0.3 ("Utility - ...") and Arnold's old ones.
@@ -111,16 +111,16 @@ constexpr NamedSpace kSpaces[] = {
     {"srgb_rec709_scene", kSrgb},
     {"Utility - sRGB - Texture", kSrgb},
     {"Input - Generic - sRGB - Texture", kSrgb},
-    {"sRGB Encoded AP1 - Texture", {Primaries::Ap1, Transfer::Srgb, false}},
-    {"srgb_encoded_ap1_tx", {Primaries::Ap1, Transfer::Srgb, false}},
-    {"sRGB Encoded P3-D65 - Texture", {Primaries::P3D65, Transfer::Srgb, false}},
-    {"Gamma 1.8 Rec.709 - Texture", {Primaries::Rec709, Transfer::Gamma18, false}},
-    {"g18_rec709_tx", {Primaries::Rec709, Transfer::Gamma18, false}},
-    {"Gamma 2.2 Rec.709 - Texture", {Primaries::Rec709, Transfer::Gamma22, false}},
-    {"g22_rec709_tx", {Primaries::Rec709, Transfer::Gamma22, false}},
-    {"g22_rec709", {Primaries::Rec709, Transfer::Gamma22, false}},
-    {"Gamma 2.2 AP1 - Texture", {Primaries::Ap1, Transfer::Gamma22, false}},
-    {"g22_ap1_tx", {Primaries::Ap1, Transfer::Gamma22, false}},
+    {"sRGB Encoded AP1 - Texture", {Primaries::Ap1, Transfer::Srgb, false, nullptr}},
+    {"srgb_encoded_ap1_tx", {Primaries::Ap1, Transfer::Srgb, false, nullptr}},
+    {"sRGB Encoded P3-D65 - Texture", {Primaries::P3D65, Transfer::Srgb, false, nullptr}},
+    {"Gamma 1.8 Rec.709 - Texture", {Primaries::Rec709, Transfer::Gamma18, false, nullptr}},
+    {"g18_rec709_tx", {Primaries::Rec709, Transfer::Gamma18, false, nullptr}},
+    {"Gamma 2.2 Rec.709 - Texture", {Primaries::Rec709, Transfer::Gamma22, false, nullptr}},
+    {"g22_rec709_tx", {Primaries::Rec709, Transfer::Gamma22, false, nullptr}},
+    {"g22_rec709", {Primaries::Rec709, Transfer::Gamma22, false, nullptr}},
+    {"Gamma 2.2 AP1 - Texture", {Primaries::Ap1, Transfer::Gamma22, false, nullptr}},
+    {"g22_ap1_tx", {Primaries::Ap1, Transfer::Gamma22, false, nullptr}},
     {"raw", kRawSpace},
     {"Utility - Raw", kRawSpace},
     {"data", kRawSpace},
@@ -207,11 +207,67 @@ std::vector<std::string> color_space_names() {
     return names;
 }
 
-ColorSpace resolve_color_space(std::string_view name, ColorSpace automatic,
-                               Diagnostics& diagnostics, const SourceSpan& where) {
+std::string_view color_space_text(ColorSpace space) {
+    if (space.external != nullptr) return space.external->name();
+    for (const NamedSpace& entry : kSpaces) {
+        if (entry.space == space) return entry.name;
+    }
+    return "a colour space without a name";
+}
+
+ColorConversion::ColorConversion(ColorSpace from, ColorSpace to)
+    : before_(from.external), after_(to.external) {
+    identity_ = from.raw || to.raw || from == to;
+    if (identity_) return;
+    // What a configuration's space gives, or takes, is light in the rendering space.
+    if (before_ != nullptr) from = before_->rendering();
+    if (after_ != nullptr) to = after_->rendering();
+    same_primaries_ = from.primaries == to.primaries;
+    decode_ = from.transfer;
+    encode_ = to.transfer;
+    const ColorMatrix m = rgb_to_rgb(from.primaries, to.primaries);
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            matrix_[i][j] = static_cast<float>(m[i][j]);
+    }
+}
+
+Color ColorConversion::operator()(Color c) const {
+    if (identity_) return c;
+    if (before_ != nullptr) c = before_->to_rendering(c);
+    c = built_in(c);
+    return after_ != nullptr ? after_->from_rendering(c) : c;
+}
+
+Color ColorConversion::built_in(Color c) const {
+    Color light{decode(decode_, c.r), decode(decode_, c.g), decode(decode_, c.b)};
+    if (!same_primaries_) {
+        const Color in = light;
+        for (int i = 0; i < 3; ++i) {
+            const auto& row = matrix_[static_cast<std::size_t>(i)];
+            light[i] = row[0] * in.r + row[1] * in.g + row[2] * in.b;
+        }
+    }
+    return {encode(encode_, light.r), encode(encode_, light.g), encode(encode_, light.b)};
+}
+
+float ColorConversion::grey(float v) const {
+    if (identity_) return v;
+    if (before_ != nullptr || after_ != nullptr) return (*this)(Color::grey(v)).g;
+    return encode(encode_, decode(decode_, v));
+}
+
+std::optional<ColorSpace> ColorSpaces::find(std::string_view name) const {
+    for (const char* role : {"rendering", "scene_linear", "linear"})
+        if (same_name(name, role)) return rendering_;
+    return find_color_space(name);
+}
+
+ColorSpace ColorSpaces::resolve(std::string_view name, ColorSpace automatic,
+                                Diagnostics& diagnostics, const SourceSpan& where) const {
     if (same_name(name, "auto")) return automatic;
-    if (const std::optional<ColorSpace> space = find_color_space(name)) return *space;
-    std::vector<std::string> candidates = color_space_names();
+    if (const std::optional<ColorSpace> space = find(name)) return *space;
+    std::vector<std::string> candidates = names();
     candidates.emplace_back("auto");
     std::string hint = did_you_mean(name, candidates);
     if (hint.empty())
@@ -225,40 +281,9 @@ ColorSpace resolve_color_space(std::string_view name, ColorSpace automatic,
     return automatic;
 }
 
-std::string_view color_space_text(ColorSpace space) {
-    for (const NamedSpace& entry : kSpaces) {
-        if (entry.space == space) return entry.name;
-    }
-    return "a colour space without a name";
-}
-
-ColorConversion::ColorConversion(ColorSpace from, ColorSpace to)
-    : identity_(from.raw || to.raw || from == to),
-      same_primaries_(from.primaries == to.primaries),
-      decode_(from.transfer),
-      encode_(to.transfer) {
-    const ColorMatrix m = rgb_to_rgb(from.primaries, to.primaries);
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j)
-            matrix_[i][j] = static_cast<float>(m[i][j]);
-    }
-}
-
-Color ColorConversion::operator()(Color c) const {
-    if (identity_) return c;
-    Color light{decode(decode_, c.r), decode(decode_, c.g), decode(decode_, c.b)};
-    if (!same_primaries_) {
-        const Color in = light;
-        for (int i = 0; i < 3; ++i) {
-            const auto& row = matrix_[static_cast<std::size_t>(i)];
-            light[i] = row[0] * in.r + row[1] * in.g + row[2] * in.b;
-        }
-    }
-    return {encode(encode_, light.r), encode(encode_, light.g), encode(encode_, light.b)};
-}
-
-float ColorConversion::grey(float v) const {
-    return identity_ ? v : encode(encode_, decode(decode_, v));
+const ColorSpaces& ColorSpaces::built_in() {
+    static const ColorSpaces all;
+    return all;
 }
 
 }  // namespace lightsieve

@@ -75,9 +75,10 @@ TEST(ColorSpaceTest, NamesAreFoundWithoutRegardToCase) {
 
 TEST(ColorSpaceTest, UnknownNamesWarnAndSayWhatIsAssumed) {
     Diagnostics diagnostics;
-    EXPECT_EQ(resolve_color_space("auto", kSrgb, diagnostics, {}), kSrgb);
+    EXPECT_EQ(ColorSpaces::built_in().resolve("auto", kSrgb, diagnostics, {}), kSrgb);
     EXPECT_EQ(diagnostics.n_warnings(), 0U);
-    EXPECT_EQ(resolve_color_space("ACEScq", kRenderingSpace, diagnostics, {}), kRenderingSpace);
+    EXPECT_EQ(ColorSpaces::built_in().resolve("ACEScq", kRenderingSpace, diagnostics, {}),
+              kRenderingSpace);
     ASSERT_EQ(diagnostics.items().size(), 1U);
     EXPECT_EQ(diagnostics.items()[0].code, Code::UnknownColorSpace);
     EXPECT_EQ(diagnostics.items()[0].message,

@@ -40,9 +40,13 @@ ColorImage read_color_image(const std::string& path, std::string_view color_spac
                  std::to_string(spec.height) + " pixels, more than " + std::to_string(max_pixels),
              where, "use a smaller picture");
     }
+    const ColorSpaces& spaces = ColorSpaces::built_in();
+    const bool linear = is_float_format(spec);
     const TexelConversion conversion(
-        spec, resolve_color_space(color_space, is_float_format(spec) ? kRenderingSpace : kSrgb,
-                                  diagnostics, where));
+        spec,
+        spaces.resolve(color_space, linear ? spaces.rendering() : spaces.integers(), diagnostics,
+                       where),
+        spaces.rendering());
 
     // Read in strips: a file may have many more channels than the three that are kept.
     constexpr int kRows = 64;

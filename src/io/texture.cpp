@@ -86,10 +86,12 @@ struct Texture {
 };
 
 struct TextureCache::State {
+    std::shared_ptr<const ColorSpaces> spaces;
     OIIO::TextureSystem* system = nullptr;
     std::uint64_t id = next_cache_id++;
     std::mutex mutex;  ///< guards what follows
-    std::map<std::tuple<std::string, Primaries, Transfer, bool>, std::unique_ptr<Texture>>
+    std::map<std::tuple<std::string, Primaries, Transfer, bool, const ExternalSpace*>,
+             std::unique_ptr<Texture>>
         textures;
     std::map<std::string, std::string> failures;  ///< path to the first message
 
@@ -136,7 +138,9 @@ bool read_info(const std::string& path, TextureInfo& info, std::string& problem)
 
 }  // namespace
 
-TextureCache::TextureCache(std::size_t memory_mb) : state_(std::make_unique<State>()) {
+TextureCache::TextureCache(std::size_t memory_mb, std::shared_ptr<const ColorSpaces> spaces)
+    : state_(std::make_unique<State>()) {
+    state_->spaces = spaces ? std::move(spaces) : std::make_shared<const ColorSpaces>();
     state_->system = OIIO::TextureSystem::create(false);
     OIIO::TextureSystem& system = *state_->system;
     system.attribute("max_memory_MB", static_cast<float>(memory_mb));
@@ -156,7 +160,8 @@ std::unique_ptr<Texture> TextureCache::State::load(const std::string& path,
                                                    const TextureInfo& info, std::string& problem) {
     // A made-up name: OpenImageIO would look for patterns such as <UDIM> in the real one.
     const OIIO::ustring name("lightsieve-texture-" + std::to_string(textures.size()));
-    const OIIO::ImageSpec settings = ConvertingInput::settings(path, info.space);
+    const OIIO::ImageSpec settings =
+        ConvertingInput::settings(path, info.space, spaces->rendering());
     auto texture = std::make_unique<Texture>();
     texture->info = info;
     texture->path = path;
@@ -199,10 +204,13 @@ const Texture* TextureCache::open(const std::string& path, std::string_view colo
     std::unique_ptr<Texture> loaded;
     try {
         if (read_info(path, info, problem)) {
-            info.space = resolve_color_space(color_space, info.is_float ? kRenderingSpace : kSrgb,
-                                             diagnostics, where);
+            const ColorSpaces& spaces = *state_->spaces;
+            info.space =
+                spaces.resolve(color_space, info.is_float ? spaces.rendering() : spaces.integers(),
+                               diagnostics, where);
             const std::lock_guard lock(state_->mutex);
-            const std::tuple key(path, info.space.primaries, info.space.transfer, info.space.raw);
+            const std::tuple key(path, info.space.primaries, info.space.transfer, info.space.raw,
+                                 info.space.external);
             if (const auto it = state_->textures.find(key); it != state_->textures.end())
                 return it->second.get();
             loaded = state_->load(path, info, problem);

@@ -55,7 +55,9 @@ struct TextureSampling {
 class TextureCache {
   public:
     /// memory_mb  bound on the texels in memory [MiB]
-    explicit TextureCache(std::size_t memory_mb = kDefaultMemoryMb);
+    /// spaces     what names of colour spaces mean
+    explicit TextureCache(std::size_t memory_mb = kDefaultMemoryMb,
+                          std::shared_ptr<const ColorSpaces> spaces = nullptr);
     ~TextureCache();
     TextureCache(const TextureCache&) = delete;
     TextureCache& operator=(const TextureCache&) = delete;

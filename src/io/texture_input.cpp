@@ -29,8 +29,8 @@ OIIO::ImageSpec reader_settings() {
     return config;
 }
 
-TexelConversion::TexelConversion(const OIIO::ImageSpec& spec, ColorSpace from)
-    : color(from, kRenderingSpace),
+TexelConversion::TexelConversion(const OIIO::ImageSpec& spec, ColorSpace from, ColorSpace to)
+    : color(from, to),
       n_channels(spec.nchannels),
       n_color(spec.nchannels >= 3 ? 3 : 1),
       alpha_channel(spec.alpha_channel) {
@@ -38,7 +38,8 @@ TexelConversion::TexelConversion(const OIIO::ImageSpec& spec, ColorSpace from)
     if (alpha_channel < 0) return;
     const bool unassociated = spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
     // A matrix acts alike on multiplied colours; a curve does not.
-    divide_alpha = !unassociated && !color.identity() && from.transfer != Transfer::Linear;
+    const bool curved = from.transfer != Transfer::Linear || from.external != nullptr;
+    divide_alpha = !unassociated && !color.identity() && curved;
     multiply_alpha = unassociated || divide_alpha;
 }
 
@@ -56,12 +57,26 @@ void TexelConversion::apply(float* pixels, std::size_t n) const {
     }
 }
 
-OIIO::ImageSpec ConvertingInput::settings(const std::string& path, ColorSpace from) {
+namespace {
+
+/// The bytes of a colour space: settings are values, and the spaces that it may point to outlive the cache.
+constexpr OIIO::TypeDesc kSpaceType(OIIO::TypeDesc::UINT8, static_cast<int>(sizeof(ColorSpace)));
+
+ColorSpace space_of(const OIIO::ImageSpec& config, const char* name) {
+    ColorSpace out;
+    const OIIO::ParamValue* value = config.find_attribute(name, kSpaceType);
+    if (value != nullptr) std::memcpy(&out, value->data(), sizeof(out));
+    return out;
+}
+
+}  // namespace
+
+OIIO::ImageSpec ConvertingInput::settings(const std::string& path, ColorSpace from,
+                                          ColorSpace to) {
     OIIO::ImageSpec config;
     config.attribute("lightsieve:path", path);
-    config.attribute("lightsieve:primaries", static_cast<int>(from.primaries));
-    config.attribute("lightsieve:transfer", static_cast<int>(from.transfer));
-    config.attribute("lightsieve:raw", from.raw ? 1 : 0);
+    config.attribute("lightsieve:from", kSpaceType, &from);
+    config.attribute("lightsieve:to", kSpaceType, &to);
     return config;
 }
 
@@ -74,9 +89,8 @@ bool ConvertingInput::open(const std::string&, OIIO::ImageSpec& spec,
                            const OIIO::ImageSpec& config) {
     close();
     const std::string path = config.get_string_attribute("lightsieve:path");
-    const ColorSpace from{static_cast<Primaries>(config.get_int_attribute("lightsieve:primaries")),
-                          static_cast<Transfer>(config.get_int_attribute("lightsieve:transfer")),
-                          config.get_int_attribute("lightsieve:raw") != 0};
+    const ColorSpace from = space_of(config, "lightsieve:from"),
+                     to = space_of(config, "lightsieve:to");
     const OIIO::ImageSpec inner_config = reader_settings();
     inner_ = OIIO::ImageInput::open(path, &inner_config);
     if (!inner_) {
@@ -88,7 +102,7 @@ bool ConvertingInput::open(const std::string&, OIIO::ImageSpec& spec,
         errorfmt("\"{}\" is deep, three-dimensional or has {} channels", path, s.nchannels);
         return false;
     }
-    conversion_ = TexelConversion(s, from);
+    conversion_ = TexelConversion(s, from, to);
     tiled_ = s.tile_width > 0;
     adopt_spec();
     spec = m_spec;

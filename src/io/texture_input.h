@@ -28,7 +28,8 @@ struct TexelConversion {
         false;  ///< colours are not multiplied by alpha yet (also after `divide_alpha`)
 
     /// spec  of the file, opened with "oiio:UnassociatedAlpha" so that nothing is multiplied yet
-    TexelConversion(const OIIO::ImageSpec& spec, ColorSpace from);
+    /// to  the rendering space
+    TexelConversion(const OIIO::ImageSpec& spec, ColorSpace from, ColorSpace to);
     TexelConversion() = default;
     [[nodiscard]] bool identity() const {
         return color.identity() && !divide_alpha && !multiply_alpha;
@@ -46,7 +47,8 @@ class ConvertingInput final : public OIIO::ImageInput {
   public:
     /// For the cache: it opens a made-up name, and `settings(path, from)` say which file is meant.
     static OIIO::ImageInput* create() { return new ConvertingInput; }
-    [[nodiscard]] static OIIO::ImageSpec settings(const std::string& path, ColorSpace from);
+    [[nodiscard]] static OIIO::ImageSpec settings(const std::string& path, ColorSpace from,
+                                                  ColorSpace to);
 
     ~ConvertingInput() override { close(); }
     [[nodiscard]] const char* format_name() const override { return "lightsieve"; }

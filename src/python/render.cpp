@@ -186,6 +186,8 @@ void add_options(nb::module_& module) {
         .def_rw("lpe_standard", &RenderOptions::lpe_standard,
                 "Extensions of the language are errors.")
         .def_rw("lpe_table", &RenderOptions::lpe_table, "Empty, `reference` or `arnold7`.")
+        .def_rw("rendering_space", &RenderOptions::rendering_space,
+                "Colour space that light is computed in; empty: as the scene says.")
         .def_rw("isa", &RenderOptions::isa,
                 "Empty, `sse2`, `avx2` or `avx512`: pins the ray kernels.")
         .def_rw("roulette_depth", &RenderOptions::roulette_depth,

@@ -120,11 +120,13 @@ SourceSpan Compiler::option_place(Name param) const {
 
 void Compiler::read_settings() {
     RenderSettings& s = scene_->settings;
-    scene_->textures = std::make_shared<TextureCache>();
     for (const char* param : {"texture_searchpath", "asset_searchpath"})
         assets_.add_search_path(option<Name>(param, {}).view());
     if (!options_.scene_path.empty())
         assets_.add_folder(std::filesystem::path(options_.scene_path).parent_path().string());
+    make_color_spaces();
+    scene_->textures =
+        std::make_shared<TextureCache>(TextureCache::kDefaultMemoryMb, scene_->color_spaces);
     ignore_missing_textures_ = option("ignore_missing_textures", false);
     abort_on_error_ = option("abort_on_error", true);
 

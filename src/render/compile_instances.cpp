@@ -147,7 +147,7 @@ std::vector<Mat4f> instance_placement(const InstanceList& list, std::uint32_t i,
 
 /// How many numbers of SceneObject::instance a lineage takes.
 std::uint64_t numbers_of(const Lineage& lineage) {
-    return std::uint64_t{lineage.back().n} * lineage.back().stride;
+    return std::max<std::uint64_t>(1, lineage.back().n * lineage.back().stride);
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ const Lineage* Compiler::extend(const Lineage* lineage, const NodeInstance& node
     LineageStep step;
     step.node = &node;
     step.n = n_instances;
-    if (lineage != nullptr) step.stride = static_cast<std::uint32_t>(numbers_of(*lineage));
+    if (lineage != nullptr) step.stride = numbers_of(*lineage);
     if (n_instances > 1)
         for (const UserData& data : node.user_data())
             if (data.name.view().starts_with(kByInstance) &&
@@ -175,6 +175,17 @@ void Compiler::find_leaves(const NodeInstance& node, const LeafUse& use, const L
                                   "instances refer to each other more than " +
                                       std::to_string(kMaxInstanceDepth) + " deep",
                                   node.where("node"));
+    // What a procedural holds may place the procedural again.
+    if (std::find(open_shapes_.begin(), open_shapes_.end(), &node) != open_shapes_.end())
+        return diagnostics_.error(Code::CyclicLink,
+                                  fmt::format("\"{}\" holds itself", node.name().view()),
+                                  node.where(), "take one of the instances out");
+    open_shapes_.push_back(&node);
+    leaves_of(node, use, sink);
+    open_shapes_.pop_back();
+}
+
+void Compiler::leaves_of(const NodeInstance& node, const LeafUse& use, const LeafSink& sink) {
     const ShapeCommon& common = *node.type().shape_common(node.block());
     if (!use.as_source && common.visibility == 0) return;
     if (const NodeScope* inside = graph_.contents(node); inside != nullptr)
@@ -316,7 +327,6 @@ void Compiler::leaves_of_instancer(const NodeInstance& node, const ShapeGeometry
         const std::vector<Mat4f> place =
             compose(instance_placement(list, i, common, shutter), own);
         for (const ShapeLeaf& leaf : known->second) {
-            if (too_many_leaves(node, numbers_of(*leaf.lineage))) return;
             ShapeLeaf copy = leaf;
             copy.placement = compose(leaf.placement, place);
             if (turns)
@@ -329,13 +339,47 @@ void Compiler::leaves_of_instancer(const NodeInstance& node, const ShapeGeometry
     }
 }
 
-bool Compiler::too_many_leaves(const NodeInstance& node, std::uint64_t numbers) {
-    if (++n_leaves_ <= kMaxLeaves && numbers <= kMaxLeaves) return false;
-    diagnostics_.error(Code::LimitInstances,
-                       fmt::format("\"{}\" and instances within it place more than {} shapes",
-                                   node.name().view(), kMaxLeaves),
-                       node.where("nodes"), "nest instancers less deep, or place fewer");
-    return true;
+/// How many leaves find_leaves would give, before any is made. What places itself counts as nothing here.
+std::uint64_t Compiler::count_leaves(const NodeInstance& node, bool as_source) {
+    if (!as_source && node.type().shape_common(node.block())->visibility == 0) return 0;
+    const auto [known, added] = leaf_counts_.try_emplace(&node, 0);
+    if (!added) return known->second;
+    std::uint64_t count = 0;
+    const auto add = [&](const NodeInstance* placed, bool source) {
+        if (placed == nullptr || placed->type().shape_common == nullptr) return;
+        // Saturating: nothing counts further than past the limit.
+        count = std::min(count + count_leaves(*placed, source), kMaxLeaves + 1);
+    };
+    if (const NodeScope* inside = graph_.contents(node); inside != nullptr) {
+        for (const auto& shape : inside->nodes)
+            if (shape->kind() == NodeKind::Shape) add(shape.get(), false);
+    } else if (const ShapeGeometry* geometry = shared_geometry(node); geometry == nullptr) {
+        count = 0;
+    } else if (const InstanceList* list = geometry->instances; list != nullptr) {
+        for (std::uint32_t i = 0; i < list->size(); ++i) {
+            const std::uint32_t source = list->value(list->node_idxs, i, 0U);
+            if (source < list->nodes.n) add(list->nodes[source].node, true);
+        }
+    } else if (geometry->instance_of) {
+        add(geometry->instance_of.node, true);
+    } else {
+        count = 1;
+    }
+    return leaf_counts_[&node] = count;
+}
+
+/// Places a node of the scene itself with all that it holds.
+void Compiler::place_all(const NodeInstance& node) {
+    n_leaves_ += count_leaves(node, false);
+    if (n_leaves_ > kMaxLeaves) {
+        n_leaves_ = 0;  // what comes after it may be placed
+        return diagnostics_.error(
+            Code::LimitInstances,
+            fmt::format("with \"{}\" and what it places there are more than {} shapes",
+                        node.name().view(), kMaxLeaves),
+            node.where(), "nest instances less deep, or place fewer");
+    }
+    find_leaves(node, {}, [this](ShapeLeaf&& leaf) { place(std::move(leaf)); });
 }
 
 }  // namespace lightsieve

@@ -65,7 +65,7 @@ class LimitedBlock {
 void Compiler::make_shapes() {
     for (const auto& node : graph_.nodes())
         if (node->kind() == NodeKind::Shape && node->type().shape_common != nullptr)
-            find_leaves(*node, {}, [this](ShapeLeaf&& leaf) { place(std::move(leaf)); });
+            place_all(*node);
 }
 
 std::unique_ptr<ShapeGeometry> Compiler::geometry_of(const NodeInstance& node) {

@@ -30,6 +30,10 @@ class Compiler {
     // For the node context.
     [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
     [[nodiscard]] TextureCache& textures() { return *scene_->textures; }
+    [[nodiscard]] const ColorSpaces& color_spaces() const { return *scene_->color_spaces; }
+    [[nodiscard]] const std::string& wanted_rendering_space() const {
+        return options_.rendering_space;
+    }
     [[nodiscard]] const AssetFinder& assets() const { return assets_; }
     [[nodiscard]] const RenderSettings& settings() const { return scene_->settings; }
     [[nodiscard]] bool ignore_missing_textures() const { return ignore_missing_textures_; }
@@ -48,6 +52,10 @@ class Compiler {
     [[nodiscard]] std::unique_ptr<ShapeGeometry> geometry_of(const NodeInstance& node);
 
   private:
+    // compile_color.cpp
+    void make_color_spaces();
+    [[nodiscard]] std::shared_ptr<const ColorSpaces> configured_color_spaces();
+
     // compile.cpp
     void read_settings();
     void read_region();
@@ -81,6 +89,7 @@ class Compiler {
     // compile_instances.cpp
     /// Gives `sink` all shapes that the node places, in the space that the node lies in.
     void find_leaves(const NodeInstance& node, const LeafUse& use, const LeafSink& sink);
+    void leaves_of(const NodeInstance& node, const LeafUse& use, const LeafSink& sink);
     void leaves_of_instance(const NodeInstance& node, const ShapeGeometry& geometry,
                             const LeafUse& use, const LeafSink& sink);
     void leaves_of_procedural(const NodeInstance& node, const NodeScope& inside,
@@ -95,7 +104,8 @@ class Compiler {
     /// A lineage with one more step, kept by the scene. lineage: null for the shape itself.
     [[nodiscard]] const Lineage* extend(const Lineage* lineage, const NodeInstance& node,
                                         std::uint32_t n_instances);
-    [[nodiscard]] bool too_many_leaves(const NodeInstance& node, std::uint64_t numbers);
+    [[nodiscard]] std::uint64_t count_leaves(const NodeInstance& node, bool as_source);
+    void place_all(const NodeInstance& node);
 
     // compile_objects.cpp
     void place(ShapeLeaf&& leaf);
@@ -164,7 +174,9 @@ class Compiler {
     std::map<std::vector<std::uint32_t>, const std::vector<bool>*> shadow_lights_by_group_;
     /// By shader or list of shaders, their number, and object label.
     std::map<std::tuple<const void*, std::uint32_t, const void*>, ShaderList*> shader_lists_;
-    std::uint64_t n_leaves_ = 0;
+    std::uint64_t n_leaves_ = 0;                                ///< placed so far
+    std::map<const NodeInstance*, std::uint64_t> leaf_counts_;  ///< by node
+    std::vector<const NodeInstance*> open_shapes_;              ///< whose leaves are being found
     std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
     std::map<Event, std::uint32_t> event_index_;
     std::vector<Name> written_aovs_;  ///< AOVs that shaders write, by number
@@ -191,6 +203,10 @@ class CompileContext final : public NodeContext {
     std::uint32_t written_aov(Name aov) override { return compiler_.written_aov(aov); }
     const NodeInstance* camera() override { return compiler_.default_camera(); }
     TextureCache& textures() override { return compiler_.textures(); }
+    const ColorSpaces& color_spaces() const override { return compiler_.color_spaces(); }
+    std::string wanted_rendering_space() const override {
+        return compiler_.wanted_rendering_space();
+    }
     std::optional<std::string> find_asset(std::string_view filename) const override {
         return compiler_.assets().find(filename);
     }

@@ -62,8 +62,8 @@ DisplacementMap::DisplacementMap(TriangleMesh rest, std::vector<const ShaderProg
     in_world_.name = in_object_.name = object.name;
     in_world_.services = in_object_.services = object.services;
     in_world_.id = in_object_.id = object.id;
-    in_world_.world_from_object = {object.world_from_object[0]};
-    in_world_.object_from_world = {object.object_from_world[0]};
+    in_world_.world_from_object = object.world_from_object.first(1);
+    in_world_.object_from_world = object.object_from_world.first(1);
     static const Mat4f kIdentity;
     in_object_.world_from_object = in_object_.object_from_world = {&kIdentity, 1};
     in_world_.shaders = in_object_.shaders = programs_;

@@ -176,6 +176,31 @@ TEST_F(Procedurals, ThatAreMissingAreToldAndTheRestRenders) {
         "g...");
 }
 
+TEST_F(Procedurals, ThatPlaceThemselvesAreAnError) {
+    write("again.ass", node("ginstance", "a", " node p\n") + node("ginstance", "b", " node p\n"));
+    try {
+        (void)columns(procedural("p", "again.ass"));
+        FAIL() << "it compiles";
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("\"p\" holds itself"), std::string::npos) << e.what();
+    }
+}
+
+TEST_F(Procedurals, ThatExplodeAreAnError) {
+    // Thirty files, each of which places the next one twice.
+    write("p30.ass", tile("a", 0, "green"));
+    for (int i = 0; i < 30; ++i) {
+        const std::string next = "p" + std::to_string(i + 1) + ".ass";
+        write("p" + std::to_string(i) + ".ass", procedural("x", next) + procedural("y", next));
+    }
+    try {
+        (void)columns(procedural("p", "p0.ass"));
+        FAIL() << "it compiles";
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("limit-instances"), std::string::npos) << e.what();
+    }
+}
+
 TEST_F(Procedurals, AreEditedByOperators) {
     EXPECT_EQ(columns(procedural("p", "tiles.ass") + "options { operator op }\n" +
                       node("set_parameter", "op",

@@ -45,6 +45,7 @@ struct RenderOptions {
     std::vector<std::string> lpes;  ///< "NAME EXPRESSION": expressions defined and output as RGB
     bool lpe_standard = false;      ///< extensions of the language are errors
     std::string lpe_table;          ///< "", "reference" or "arnold7"
+    std::string rendering_space;    ///< name of the colour space that light is computed in
     std::string isa;                ///< "", "sse2", "avx2", "avx512": pins the ray kernels
     int roulette_depth =
         4;  ///< scattering events before Russian roulette may end a path; negative: never

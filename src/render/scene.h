@@ -77,6 +77,7 @@ class Scene {
     ~Scene();
 
     RenderSettings settings;
+    std::shared_ptr<const ColorSpaces> color_spaces;  ///< outlives what was made with it
     std::shared_ptr<TextureCache> textures;
     std::vector<std::unique_ptr<ShapeGeometry>> geometries;
     std::vector<std::unique_ptr<ShaderProgram>> shaders;

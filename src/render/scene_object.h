@@ -27,7 +27,7 @@ struct UserData;        // scene/graph.h
 struct LineageStep {
     const NodeInstance* node = nullptr;
     std::uint32_t n = 1;  ///< of an instancer: its instances
-    std::uint32_t stride =
+    std::uint64_t stride =
         1;  ///< SceneObject::instance / stride % n is the number of the instance
     /// Of an instancer: user data with a value for each instance, by the name that shaders see.
     std::vector<std::pair<Name, const UserData*>> by_instance;
@@ -47,8 +47,8 @@ struct SceneObject {
     const ShadeServices* services = nullptr;  ///< for shaders
     const DisplacementMap* bumps = nullptr;   ///< displacement that shows as bumps; null: none
     Name name;
+    std::uint64_t instance = 0;  ///< which of the instances that share the lineage
     std::uint32_t id = 0;
-    std::uint32_t instance = 0;  ///< which of the instances that share the lineage
     std::uint8_t visibility = 255, sidedness = 255;
     bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;
     bool may_be_transparent = false;  ///< rays may pass straight through

@@ -129,8 +129,9 @@ SceneServices::Found SceneServices::find(const ShadePoint& at, Name name) const 
         const LineageStep& step = (*object.lineage)[i];
         for (const auto& [shown, data] : step.by_instance)
             if (shown == name)
-                return {data, step.node,
-                        std::min(object.instance / step.stride % step.n, data->n - 1)};
+                return {
+                    data, step.node,
+                    std::min<std::size_t>(object.instance / step.stride % step.n, data->n - 1)};
         const UserData* data = step.node->find_user_data(name);
         // Only what is the same everywhere can be given to an instance.
         const bool fits = data != nullptr && data->n > 0 && data->data != nullptr &&

@@ -19,7 +19,7 @@ struct ShapeLeaf {
     std::vector<Mat4f>
         placement;  ///< keys over the shutter, into the space of the node that was asked
     const Lineage* lineage = nullptr;
-    std::uint32_t instance = 0;                ///< as SceneObject::instance
+    std::uint64_t instance = 0;                ///< as SceneObject::instance
     Array<NodeRef> shaders;                    ///< one, or by shidxs
     Name label;                                ///< lpe_label
     const NodeInstance* outermost = nullptr;   ///< whose place messages name

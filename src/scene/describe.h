@@ -8,7 +8,8 @@
 //     }
 //
 // `done()` finds the functions that the struct has: eval, prepare, make_light, make_light_filter, make_geometry,
-// make_camera, make_filter, make_driver, edit_scene, possible_texts. Types and offsets come from the member pointers: nothing is written twice.
+// make_camera, make_filter, make_driver, make_color_spaces, edit_scene,
+// possible_texts. Types and offsets come from the member pointers: nothing is written twice.
 #pragma once
 
 #include <concepts>
@@ -212,6 +213,10 @@ class Describe {
         if constexpr (requires(const T& t, NodeContext& c) { t.make_driver(c); })
             type_.make_driver = [](const void* block, NodeContext& c) {
                 return static_cast<const T*>(block)->make_driver(c);
+            };
+        if constexpr (requires(const T& t, NodeContext& c) { t.make_color_spaces(c); })
+            type_.make_color_spaces = [](const void* block, NodeContext& c) {
+                return static_cast<const T*>(block)->make_color_spaces(c);
             };
         if constexpr (requires(const T& t, OperatorContext& c) { t.edit_scene(c); })
             type_.edit_scene = [](const void* block, OperatorContext& c) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/color.h"
 #include "core/diagnostics.h"
 #include "scene/node_type.h"
 #include "scene/shade_point.h"
@@ -63,6 +64,12 @@ class NodeContext {
     [[nodiscard]] virtual std::uint32_t written_aov(Name /*aov*/) { return 0; }
     /// The camera that the frame is about; null if the scene has none.
     [[nodiscard]] virtual const NodeInstance* camera() { return nullptr; }
+    /// RenderOptions::rendering_space: what the command says; empty: as the scene says.
+    [[nodiscard]] virtual std::string wanted_rendering_space() const { return {}; }
+    /// What names of colour spaces mean, and which one light is computed in.
+    [[nodiscard]] virtual const ColorSpaces& color_spaces() const {
+        return ColorSpaces::built_in();
+    }
     /// Textures of the render; the cache outlives the scene.
     [[nodiscard]] virtual TextureCache& textures() = 0;
     /// Full path of an asset after environment variables and search paths, or nothing if no such file exists.

@@ -18,6 +18,7 @@
 namespace lightsieve {
 
 class Camera;           // scene/camera.h
+class ColorSpaces;      // core/color.h
 class ClosureSet;       // bsdf/closure.h
 class Driver;           // scene/driver.h
 class Light;            // scene/light.h
@@ -113,6 +114,8 @@ struct NodeType {
     std::unique_ptr<Camera> (*make_camera)(const void* block, NodeContext& context) = nullptr;
     std::unique_ptr<PixelFilter> (*make_filter)(const void* block, NodeContext& context) = nullptr;
     std::unique_ptr<Driver> (*make_driver)(const void* block, NodeContext& context) = nullptr;
+    std::shared_ptr<const ColorSpaces> (*make_color_spaces)(const void* block,
+                                                            NodeContext& context) = nullptr;
     void (*edit_scene)(const void* block, OperatorContext& context) = nullptr;
     const ShapeCommon* (*shape_common)(const void* block) = nullptr;
     const LightCommon* (*light_common)(const void* block) = nullptr;

@@ -29,6 +29,7 @@ LIBRARIES = {
     "TBB": (r"tbb/|oneapi/", r"core/parallel\.cpp|vdb_reader/main\.cpp"),
     "OpenEXR": (r"Imf|Iex|Imath|half\.h|OpenEXR/", r"io/exr\w*\.(cpp|h)"),
     "OpenImageIO": (r"OpenImageIO/", r"io/(texture|image)\w*\.(cpp|h)"),
+    "OpenColorIO": (r"OpenColorIO/", r"io/color_config\.cpp"),
     "OpenVDB": (r"openvdb/|nanovdb/util/", r"vdb_reader/.*"),
     "NanoVDB": (r"nanovdb/NanoVDB\.h", r"io/volume_tree\.(cpp|h)"),
     "OpenSubdiv": (r"opensubdiv/", r"nodes/common/subdivision\.cpp"),

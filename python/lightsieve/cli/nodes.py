@@ -17,8 +17,8 @@ EXAMPLE = "lightsieve nodes standard_surface"
 JSON = {
     "nodes": "without NAME: one object a node: `name`, `kind`, `doc`",
     "name": "with NAME: the node's name",
-    "kind": "with NAME: `shader`, `light`, `light filter`, `shape`, `camera`, `filter`, `driver` "
-    "or `options`",
+    "kind": "with NAME: `shader`, `light`, `light filter`, `shape`, `camera`, `filter`, `driver`, "
+    "`operator`, `color manager` or `options`",
     "doc": "with NAME: one line",
     "output": "with NAME: what a shader gives to a parameter that links to it",
     "params": "with NAME: one object a parameter: `name`, `type`, `array`, `default`, `doc`, "

@@ -212,6 +212,14 @@ def command(
     strict: _scene_options.Strict = False,
     lpe_standard: _scene_options.LpeStandard = False,
     lpe_table: _scene_options.LpeTable = None,
+    rendering_space: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="Colour space that light is computed in, a linear one.",
+            show_default=False,
+        ),
+    ] = "",
     isa: Annotated[
         Literal["sse2", "avx2", "avx512"] | None,
         typer.Option(
@@ -245,6 +253,7 @@ def command(
         "strict": strict,
         "lpe_standard": lpe_standard,
         "lpe_table": lpe_table or "",
+        "rendering_space": rendering_space,
         "isa": isa or "",
         "output": output,
         "aa": aa or 0,

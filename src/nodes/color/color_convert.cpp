@@ -22,11 +22,12 @@ struct ColorConvert {
         return d.done();
     }
     void prepare(NodeContext& context) {
+        const ColorSpaces& spaces = context.color_spaces();
         const auto space = [&](Name name, const char* param) {
             const bool rendering = name.view() == "RGB" || name.view() == "HSV";
-            return rendering ? kRenderingSpace
-                             : resolve_color_space(name.view(), kRenderingSpace,
-                                                   context.diagnostics(), context.where(param));
+            return rendering ? spaces.rendering()
+                             : spaces.resolve(name.view(), spaces.rendering(),
+                                              context.diagnostics(), context.where(param));
         };
         conversion = ColorConversion(space(from, "from"), space(to, "to"));
     }

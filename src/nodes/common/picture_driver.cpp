@@ -12,8 +12,8 @@ namespace {
 constexpr int kTileSize = 64;
 
 /// 8-bit pictures are for display; others keep the rendering space.
-ColorSpace automatic_space(const PictureOptions& options) {
-    return options.type == PictureType::UInt8 ? kSrgb : kRenderingSpace;
+ColorSpace automatic_space(const PictureOptions& options, const ColorSpaces& spaces) {
+    return options.type == PictureType::UInt8 ? spaces.integers() : spaces.rendering();
 }
 
 bool is_integer(const ImageLayer& layer) {
@@ -27,9 +27,10 @@ PictureDriver::PictureDriver(Name filename, Name color_space, const PictureOptio
     : path_(filename.str()),
       where_(context.where("filename")),
       options_(options),
-      conversion_(kRenderingSpace,
-                  resolve_color_space(color_space.view(), automatic_space(options),
-                                      context.diagnostics(), context.where("color_space"))) {}
+      conversion_(context.color_spaces().rendering(),
+                  context.color_spaces().resolve(
+                      color_space.view(), automatic_space(options, context.color_spaces()),
+                      context.diagnostics(), context.where("color_space"))) {}
 
 bool PictureDriver::fits(const ImageHeader& header, Diagnostics& diagnostics) const {
     if (header.layers.size() != 1) {

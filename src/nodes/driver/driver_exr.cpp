@@ -134,9 +134,10 @@ class ExrDriver final : public Driver {
         : node_(node),
           path_(node.filename.str()),
           where_(context.where("filename")),
-          space_(resolve_color_space(node.color_space.view(), kRenderingSpace,
-                                     context.diagnostics(), context.where("color_space"))),
-          conversion_(kRenderingSpace, space_) {
+          space_(context.color_spaces().resolve(
+              node.color_space.view(), context.color_spaces().rendering(), context.diagnostics(),
+              context.where("color_space"))),
+          conversion_(context.color_spaces().rendering(), space_) {
         for (const Name& attribute : node.custom_attributes.first_key()) {
             if (read_attribute(attribute.str(), attributes_)) continue;
             context.diagnostics().warning(

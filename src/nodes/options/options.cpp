@@ -224,8 +224,9 @@ void describe_nodes(Describe<Options>& d) {
     d.param("drivers", &Options::drivers, "Drivers that list their own outputs.").pending();
     d.param("imager", &Options::imager, "Chain of picture effects.").pending();
     d.param("color_manager", &Options::color_manager,
-            "Colour configuration; the rendering space is ACEScg.")
-        .ignored();
+            "Where names of colour spaces come from. None: the configuration that $OCIO names, or "
+            "else the "
+            "usual spaces of ACES, rendering in ACEScg.");
     d.param("subdiv_dicing_camera", &Options::subdiv_dicing_camera,
             "Camera for adaptive subdivision of meshes that name none.");
 }
