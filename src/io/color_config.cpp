@@ -130,8 +130,8 @@ OCIO::ConstColorSpaceRcPtr rendering_space(const OCIO::Config& config,
 std::shared_ptr<const ColorSpaces> read_color_config(const ColorConfigOptions& options,
                                                      Diagnostics& diagnostics) {
     try {
+        // Not validated as a whole: a missing file of one space must not take the others away.
         const OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(options.path.c_str());
-        config->validate();
         const auto rendering = rendering_space(*config, options, diagnostics);
         if (!rendering) return nullptr;
         return std::make_shared<OcioSpaces>(config, rendering->getName(), options.integers);

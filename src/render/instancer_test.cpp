@@ -65,11 +65,11 @@ TEST(Instancers, PlaceNodesByIndex) {
 }
 
 TEST(Instancers, OwnMatrixComesLast) {
-    // Instances twice as far apart, moved by -0.5.
+    // Mirrored and moved by 1, after the instance's own -0.5.
     EXPECT_EQ(columns(four_columns() + tile("a", "red") +
-                      instancer("many", " nodes a\n" + matrices({-0.5F, 1}) +
-                                            " matrix 2 0 0 0  0 1 0 0  0 0 1 0  -0.5 0 0 1\n")),
-              "rr.r");
+                      instancer("many", " nodes a\n" + matrices({-0.5F}) +
+                                            " matrix -1 0 0 0  0 1 0 0  0 0 1 0  1 0 0 1\n")),
+              "...r");
 }
 
 TEST(Instancers, InheritTheMatrixOfWhatTheyPlaceOnlyIfAsked) {
@@ -180,8 +180,8 @@ TEST(Instancers, ShareGeometry) {
 
 TEST(Instancers, MoveWithMotionKeys) {
     // From x = -1.5 to 1.5 while the shutter is open: a quarter of the time over each column.
-    const std::string camera =
-        ortho_camera({0, 5, 0}, {0, 0, 0}, 4, {0, 0, -1}) + " shutter_start 0\n shutter_end 1\n";
+    std::string camera = ortho_camera({0, 5, 0}, {0, 0, 0}, 4, {0, 0, -1});
+    camera.insert(camera.rfind('}'), " shutter_start 0\n shutter_end 1\n");
     const std::string moving = " nodes a\n instance_matrix 1 2 MATRIX " + at(-2.0F) + at(2.0F);
     const auto render_with = [&](const std::string& more) {
         return render(frame_text(4, 1, 32, camera) + node("flat", "red", " color 1 0 0") +

@@ -157,8 +157,8 @@ TEST_F(Procedurals, BringLights) {
 }
 
 TEST_F(Procedurals, MoveOverTheShutter) {
-    const std::string camera =
-        ortho_camera({0, 5, 0}, {0, 0, 0}, 4, {0, 0, -1}) + " shutter_start 0\n shutter_end 1\n";
+    std::string camera = ortho_camera({0, 5, 0}, {0, 0, 0}, 4, {0, 0, -1});
+    camera.insert(camera.rfind('}'), " shutter_start 0\n shutter_end 1\n");
     write("tile.ass", floor("a", 0, 0.5F, "red", " matrix 1 2 MATRIX" + at(-1) + at(1)) +
                           node("flat", "red", " color 1 0 0"));
     const Picture picture =

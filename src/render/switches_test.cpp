@@ -7,9 +7,9 @@ namespace lightsieve::testing {
 namespace {
 
 std::string above(std::string_view options, std::string_view camera_more = "") {
-    return frame_text(
-        1, 1, 32, ortho_camera({0, 5, 0}, {0, 0, 0}, 0.1F, {0, 0, -1}) + std::string(camera_more),
-        options);
+    std::string camera = ortho_camera({0, 5, 0}, {0, 0, 0}, 0.1F, {0, 0, -1});
+    camera.insert(camera.rfind('}'), camera_more);
+    return frame_text(1, 1, 32, camera, options);
 }
 Color seen(const std::string& text) { return render(text).color("RGBA", 0); }
 /// The value without and with the switch.
@@ -139,11 +139,11 @@ TEST(Switches, ListOfTypes) {
 TEST(Switches, Atmosphere) {
     const auto [without, with] =
         both("atmosphere fog\n ignore_atmosphere on",
-             kSun + kGround + node("atmosphere_volume", "fog", " density 1"));
+             kSun + kGround + node("atmosphere_volume", "fog", " density 1\n attenuation 1"));
     EXPECT_NEAR(without.r, kLit, 1e-4F);
     EXPECT_NEAR(with.r, kLit, 1e-4F);
     EXPECT_LT(seen(above(" atmosphere fog\n") + kSun + kGround +
-                   node("atmosphere_volume", "fog", " density 1"))
+                   node("atmosphere_volume", "fog", " density 1\n attenuation 1"))
                   .r,
               0.9F * kLit);
 }

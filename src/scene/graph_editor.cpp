@@ -175,7 +175,13 @@ void GraphEditor::declare_user_data(const Document& document, const NodeBlock& b
                                     NodeInstance& node) {
     for (const DeclareText& declare : block.declares) {
         const SourceSpan where = document.span(declare.statement);
-        if (node.type().find(declare.name) != nullptr) {
+        const ParamInfo* own = node.type().find(declare.name);
+        // Exporters declare what older versions of a node did not have.
+        const bool same = own != nullptr && own->type == declare.type &&
+                          own->is_array == declare.is_array &&
+                          declare.user_class == UserDataClass::Constant;
+        if (same) continue;
+        if (own != nullptr) {
             diagnostics_->warning(
                 Code::UserData,
                 fmt::format("{} has a parameter \"{}\" of its own: the declaration is ignored",

@@ -409,6 +409,7 @@ TEST(UserDataOfNodes, TypesAndClasses) {
 
 TEST(UserDataOfNodes, Complaints) {
     EXPECT_EQ(reported("polymesh", " declare id constant INT\n id 3"), "4:2 warning user-data\n");
+    EXPECT_EQ(reported("polymesh", " declare id constant UINT\n id 3"), "") << "as it is anyway";
     EXPECT_EQ(reported("polymesh", " declare a constant INT\n declare a constant FLOAT\n a 3"),
               "5:2 warning user-data\n");
     EXPECT_EQ(reported("polymesh", " declare a constant INT\n a 3 1 INT 1 2 3"),

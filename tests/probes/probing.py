@@ -202,10 +202,35 @@ TILT=NONE
 """
 
 
+OPERATORS = """disable { name first selection "second" }
+set_parameter { name last selection "ball" assignment "matte=on" inputs first }
+"""
+# Light is computed in `lin`; values of `twice` are half of those.
+COLORS = """ocio_profile_version: 1
+roles:
+  default: lin
+  scene_linear: lin
+displays:
+  screen:
+    - !<View> {name: plain, colorspace: lin}
+colorspaces:
+  - !<ColorSpace>
+    name: lin
+  - !<ColorSpace>
+    name: twice
+    to_reference: !<MatrixTransform> {matrix: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]}
+"""
+
+
 def _write_files(folder: Path) -> None:
     """Files to read. The chart's red grows to the right, its green upward, its blue is even."""
     (folder / "wide.ies").write_text(LUMINAIRE.format("100 90 60 30 0"))
     (folder / "narrow.ies").write_text(LUMINAIRE.format("100 20 0 0 0"))
+    (folder / "body.ass").write_text("sphere { name body radius 1 shader grey }\n")
+    (folder / "small.ass").write_text("sphere { name body radius 0.5 shader grey }\n")
+    (folder / "matte.ass").write_text("sphere { name body radius 1 shader grey matte on }\n")
+    (folder / "operators.ass").write_text(OPERATORS)
+    (folder / "config.ocio").write_text(COLORS)
     y, x = np.mgrid[0:16, 0:16]
     chart = np.stack([x / 15, 1 - y / 15, 0 * x + 0.2], axis=2).astype(np.float32)
     cells = np.repeat(((x // 4 + y // 4) % 2)[:, :, None], 3, axis=2).astype(np.float32)
@@ -215,10 +240,13 @@ def _write_files(folder: Path) -> None:
         "chart.0002.tif": chart[::-1],
         "cells.tif": cells[::4, ::4],
         "fine.tif": cells,
+        "bytes.tif": (chart * 100).astype(np.uint8),
     }.items():
         output = OpenImageIO.ImageOutput.create(name)
         assert output is not None, name
-        spec = OpenImageIO.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], "float")
+        spec = OpenImageIO.ImageSpec(
+            pixels.shape[1], pixels.shape[0], pixels.shape[2], str(pixels.dtype)
+        )
         output.open(str(folder / name), spec)
         output.write_image(np.ascontiguousarray(pixels))
         output.close()
