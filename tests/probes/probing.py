@@ -234,14 +234,15 @@ def _write_files(folder: Path) -> None:
     y, x = np.mgrid[0:16, 0:16]
     chart = np.stack([x / 15, 1 - y / 15, 0 * x + 0.2], axis=2).astype(np.float32)
     cells = np.repeat(((x // 4 + y // 4) % 2)[:, :, None], 3, axis=2).astype(np.float32)
-    for name, pixels in {
+    pictures: dict[str, npt.NDArray[Any]] = {
         "chart.tif": chart,
         "chart.0001.tif": chart,
         "chart.0002.tif": chart[::-1],
         "cells.tif": cells[::4, ::4],
         "fine.tif": cells,
         "bytes.tif": (chart * 100).astype(np.uint8),
-    }.items():
+    }
+    for name, pixels in pictures.items():
         output = OpenImageIO.ImageOutput.create(name)
         assert output is not None, name
         spec = OpenImageIO.ImageSpec(
