@@ -14,6 +14,8 @@ namespace {
 
 /// How many still lights stand for one that moves. Each takes its time from the shutter's, and their shadows blend.
 constexpr std::size_t kStops = 16;
+/// Nested procedurals make more out of a short file than any machine holds.
+constexpr std::uint64_t kMaxLights = std::uint64_t{1} << 20U;
 
 /// Makes a node's light as if its matrix were `place` and it were `share` times as bright.
 std::unique_ptr<Light> light_at(const NodeInstance& node, const Mat4f& place, float share,
@@ -84,9 +86,27 @@ std::vector<Mat4f> Compiler::light_stops(const NodeInstance& node) {
     return stops;
 }
 
+/// Lights in a scope and in the procedurals of it, saturating at the limit.
+std::uint64_t Compiler::count_lights(const NodeScope& scope) {
+    const auto [known, added] = light_counts_.try_emplace(&scope, 0);
+    if (!added) return known->second;
+    std::uint64_t count = 0;
+    for (const auto& node : scope.nodes) {
+        if (node->kind() == NodeKind::Light) ++count;
+        if (const NodeScope* inside = graph_.contents(*node); inside != nullptr)
+            count = std::min(count + count_lights(*inside), kMaxLights + 1);
+    }
+    return light_counts_[&scope] = count;
+}
+
 void Compiler::make_lights() {
     const NodeInstance* portal = nullptr;
-    make_lights_of(*graph_.scopes().front(), Mat4f{}, portal);
+    if (count_lights(*graph_.scopes().front()) > kMaxLights)
+        diagnostics_.error(Code::LimitInstances,
+                           "procedurals hold more than " + std::to_string(kMaxLights) + " lights",
+                           {}, "nest procedurals with lights less deep");
+    else
+        make_lights_of(*graph_.scopes().front(), Mat4f{}, portal);
     std::set<std::string> groups;
     for (const SceneLight& light : scene_->lights)
         if (light.group != "default") groups.insert(light.group);
@@ -106,7 +126,8 @@ void Compiler::make_lights() {
 void Compiler::make_lights_of(const NodeScope& scope, const Mat4f& outer,
                               const NodeInstance*& portal) {
     for (const auto& node : scope.nodes) {
-        if (const NodeScope* inside = graph_.contents(*node); inside != nullptr) {
+        if (const NodeScope* inside = graph_.contents(*node);
+            inside != nullptr && count_lights(*inside) > 0) {
             const Array<Mat4f>& own = node->type().shape_common(node->block())->matrix;
             make_lights_of(*inside, own.empty() ? outer : own[0] * outer, portal);
         }

@@ -45,7 +45,7 @@ bool Compiler::add_volume(const ShapeLeaf& leaf, const SceneObject& object) {
     }
     if (!is_closed(object.geometry->data)) {
         diagnostics_.warning(Code::ShapeBad,
-                             "shapes of type " + source.type().name.str() +
+                             "shapes of type " + leaf.shape->type().name.str() +
                                  " have no inside: the volume of \"" + node.name().str() +
                                  "\" is left out",
                              node.where("step_size"));

@@ -130,6 +130,7 @@ class Compiler {
     void make_lights();
     void set_portals(const NodeInstance& last);
     void read_shutter();
+    [[nodiscard]] std::uint64_t count_lights(const NodeScope& scope);
     void make_lights_of(const NodeScope& scope, const Mat4f& outer, const NodeInstance*& portal);
     void add_light(const NodeInstance& node, std::unique_ptr<Light> light, const Mat4f& place);
     [[nodiscard]] std::vector<Mat4f> light_stops(const NodeInstance& node);
@@ -174,7 +175,8 @@ class Compiler {
     std::map<std::vector<std::uint32_t>, const std::vector<bool>*> shadow_lights_by_group_;
     /// By shader or list of shaders, their number, and object label.
     std::map<std::tuple<const void*, std::uint32_t, const void*>, ShaderList*> shader_lists_;
-    std::uint64_t n_leaves_ = 0;                                ///< placed so far
+    std::uint64_t n_leaves_ = 0;                              ///< placed so far
+    std::map<const NodeScope*, std::uint64_t> light_counts_;  ///< with those of procedurals within
     std::map<const NodeInstance*, std::uint64_t> leaf_counts_;  ///< by node
     std::vector<const NodeInstance*> open_shapes_;              ///< whose leaves are being found
     std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
