@@ -166,7 +166,7 @@ TEST_F(Procedurals, MoveOverTheShutter) {
                              procedural("p", "tile.ass", " matrix 1 2 MATRIX" + at(-1) + at(1)),
                          beside()));
     for (std::size_t i = 0; i < 4; ++i)
-        EXPECT_NEAR(picture.color("RGBA", i).r, 0.25F, 0.02F)
+        EXPECT_NEAR(picture.color("RGBA", i).r, 0.25F, 0.07F)
             << i << ": both motions together go from -2 to 2";
 }
 
