@@ -172,6 +172,10 @@ inline GgxAlpha random_stretched_alpha(Random& random) {
                          const Color color = r.color();
                          return BurleyReflect(color, r.unit());
                      }});
+    cases.push_back({"oren-nayar reflection", [](Random& r) {
+                         const Color color = r.color();
+                         return OrenNayarReflect(color, r.unit());
+                     }});
     cases.push_back({"sheen", [](Random& r) { return SheenReflect(r.between(0.1F, 1)); }, true});
     static constexpr std::array kPaths{HairPath::R, HairPath::TT, HairPath::TRT, HairPath::Rest};
     for (const HairPath path : kPaths)

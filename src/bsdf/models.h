@@ -13,6 +13,7 @@
 #include "bsdf/dielectric.h"
 #include "bsdf/diffuse.h"
 #include "bsdf/hair.h"
+#include "bsdf/oren_nayar.h"
 #include "bsdf/phase.h"
 #include "bsdf/schlick.h"
 #include "bsdf/sheen.h"
@@ -25,11 +26,17 @@ namespace lightsieve {
 using LobeModel =
     std::variant<DiffuseReflect, DiffuseTransmit, DielectricReflect, DielectricTransmit,
                  ThinTransmit, ConductorReflect, SchlickReflect, SheenReflect, FilmReflect,
-                 FilmedSchlickReflect, HairLobe, BurleyReflect, PhaseLobe>;
+                 FilmedSchlickReflect, HairLobe, BurleyReflect, OrenNayarReflect, PhaseLobe>;
 
 /// Lobes of fibres and of volumes have no sides: light from behind the shading normal counts as much.
 [[nodiscard]] inline bool has_no_sides(const LobeModel& model) noexcept {
     return std::holds_alternative<HairLobe>(model) || std::holds_alternative<PhaseLobe>(model);
+}
+
+/// Diffuse reflection by Arnold's diffuse_roughness.
+[[nodiscard]] inline LobeModel rough_diffuse(Color color, float roughness) noexcept {
+    if (roughness > 0) return OrenNayarReflect(color, roughness);
+    return DiffuseReflect(color);
 }
 
 /// std::visit, with a short way for the lobe that most surfaces have.

@@ -14,7 +14,7 @@ struct Combination {
 };
 
 /// White layers return what came in: the layering takes the albedo of upper layers for the viewer's direction, and
-/// microfacets, rough diffuse surfaces and sheen give back or pass on what they do not reflect.
+/// microfacets, the rough diffuse base of openpbr_surface and sheen give back or pass on what they do not reflect.
 constexpr double kLoss = 0.01;
 
 class WhiteFurnace : public ::testing::TestWithParam<Combination> {};
@@ -23,7 +23,6 @@ INSTANTIATE_TEST_SUITE_P(
     Combinations, WhiteFurnace,
     ::testing::Values(
         Combination{"diffuse", "specular 0\n base_color 1 1 1"},
-        Combination{"oren_nayar", "specular 0\n base_color 1 1 1\n diffuse_roughness 0.8"},
         Combination{"plastic_smooth", "base_color 1 1 1\n specular_roughness 0"},
         Combination{"plastic", "base_color 1 1 1\n specular_roughness 0.3"},
         Combination{"plastic_rough", "base_color 1 1 1\n specular_roughness 0.9"},
@@ -48,12 +47,15 @@ INSTANTIATE_TEST_SUITE_P(
         Combination{"half_opaque", "specular 0\n base_color 1 1 1\n opacity 0.5 0.5 0.5"},
         Combination{"everything",
                     "base_color 1 1 1\n coat 0.7\n sheen 0.6\n metalness 0.3\n "
-                    "specular_roughness 0.3\n diffuse_roughness 0.5\n transmission 0.3\n opacity "
+                    "specular_roughness 0.3\n transmission 0.3\n opacity "
                     "0.8 0.8 0.8\n caustics on\n thin_film_thickness 300"},
         Combination{"everything_thin",
                     "base_color 1 1 1\n coat 0.7\n sheen 0.6\n metalness 0.3\n "
                     "specular_roughness 0.3\n transmission 0.3\n subsurface 0.4\n thin_walled "
                     "on\n caustics on"},
+        Combination{"openpbr_rough",
+                    "base_color 1 1 1\n specular_weight 0\n base_diffuse_roughness 0.8",
+                    "openpbr_surface"},
         Combination{"openpbr",
                     "base_color 1 1 1\n coat_weight 0.7\n coat_darkening 0\n fuzz_weight "
                     "0.6\n caustics on\n thin_film_weight 0.5",

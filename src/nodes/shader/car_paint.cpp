@@ -122,7 +122,7 @@ void CarPaint::eval(const ShadePoint& at, ClosureSet& out) const {
     }
     left *= unit(transmission_color);
     add_flakes(at, out, left);
-    out.add(kDiffuse, DiffuseReflect(unit(base) * unit(base_color), base_roughness), left);
+    out.add(kDiffuse, rough_diffuse(unit(base) * unit(base_color), base_roughness), left);
 }
 
 void CarPaint::prepare(NodeContext& context) {

@@ -95,7 +95,7 @@ void Standard::eval(const ShadePoint& at, ClosureSet& out) const {
     const Color reflectance = positive(Kd) * positive(Kd_color);
     if (!is_black(reflectance)) {
         // Light from behind is added: the front stays as bright (the felt of test_0079, whose Kb is 1).
-        out.add(kDiffuse, DiffuseReflect(reflectance, diffuse_roughness), diffuse, base.index,
+        out.add(kDiffuse, rough_diffuse(reflectance, diffuse_roughness), diffuse, base.index,
                 true);
         out.add(kBacklight, DiffuseTransmit(reflectance, diffuse_roughness), diffuse * unit(Kb),
                 base.index, true);

@@ -173,10 +173,9 @@ class Layering {
     void add_base() {
         if (is_black(left_)) return;
         const float subsurface = unit(s_.subsurface);
-        // Rough diffuse reflection depends on its colour, so the colour is the model's and not the weight's.
         const Color reflectance = positive(s_.base) * darkened(s_.base_color);
         if (subsurface < 1 && !is_black(reflectance))
-            out_.add(kDiffuse, DiffuseReflect(reflectance, s_.diffuse_roughness),
+            out_.add(kDiffuse, rough_diffuse(reflectance, s_.diffuse_roughness),
                      left_ * (1 - subsurface), base_.index, true);
         if (!(subsurface > 0)) return;
         const Color color = darkened(s_.subsurface_color), weight = left_ * subsurface;
