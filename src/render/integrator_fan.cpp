@@ -93,7 +93,7 @@ template <class Tracker>
 float Integrator<Tracker>::volume_rays(const Channel& channel) const {
     const int n = scene_.settings.gi_samples.volume;
     if (n == 0 || path_.n_scatter > 0 || !path_.fans_out) return n == 0 ? 0 : 1;
-    if (ends_at_lights(channel)) return scene_.lights_can_be_met ? 1 : 0;
+    if (ends_at_lights(channel) && !scene_.lights_can_be_met) return 0;
     return static_cast<float>(n);
 }
 
@@ -129,8 +129,7 @@ auto Integrator<Tracker>::choose_ray_counts() -> RayCounts {
         else
             rays[k] = most * weight;
         // Past depth limits rays are there only to meet lights. Walks below the surface ask lights themselves.
-        if (!goes_on[k] && kind != GiKind::Subsurface)
-            rays[k] = scene_.lights_can_be_met ? std::min(rays[k], 1.0F) : 0;
+        if (!goes_on[k] && kind != GiKind::Subsurface && !scene_.lights_can_be_met) rays[k] = 0;
     }
     for (std::size_t i = 0; i < n; ++i) {
         const auto k = static_cast<std::size_t>(kind_of_[i]);
