@@ -11,8 +11,8 @@ std::string room(const std::string& more) {
     const auto pane = [](const char* name, float x0, float x1, float z0, float z1) {
         return quad(name, {x0, 1, z0}, {x1, 1, z0}, {x1, 1, z1}, {x0, 1, z1}, "dark");
     };
-    return frame_text(16, 16, 4, from_above(0.2F), " GI_diffuse_depth 0") + lambert("grey", 0.5F) +
-           lambert("dark", 0) + floor("ground", 0, 20, "grey") +
+    return frame_text(16, 16, 4, from_above(0.2F), " GI_diffuse_depth 0\n GI_diffuse_samples 1") +
+           lambert("grey", 0.5F) + lambert("dark", 0) + floor("ground", 0, 20, "grey") +
            pane("left", -20, -0.5F, -20, 20) + pane("right", 0.5F, 20, -20, 20) +
            pane("front", -0.5F, 0.5F, 0.5F, 20) + pane("back", -0.5F, 0.5F, -20, -0.5F) + more;
 }
