@@ -245,9 +245,8 @@ def _write_files(folder: Path) -> None:
     for name, pixels in pictures.items():
         output = OpenImageIO.ImageOutput.create(name)
         assert output is not None, name
-        spec = OpenImageIO.ImageSpec(
-            pixels.shape[1], pixels.shape[0], pixels.shape[2], str(pixels.dtype)
-        )
+        stored = "uint8" if pixels.dtype == np.uint8 else "float"
+        spec = OpenImageIO.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], stored)
         output.open(str(folder / name), spec)
         output.write_image(np.ascontiguousarray(pixels))
         output.close()
