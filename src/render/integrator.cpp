@@ -331,8 +331,9 @@ void Integrator<Tracker>::add_met_light(std::uint32_t index, const LightEval& ev
             visibility_along(shadow, nullptr, index).straight * media_transmittance(shadow);
     }
     // Light samples know nothing of haze, so their twins must not either.
-    for (int c = 0; c < 3; ++c)
-        arriving[c] = haze_.left[c] > 0 ? arriving[c] / haze_.left[c] : 0;
+    if (scene_.atmosphere != nullptr)
+        for (int c = 0; c < 3; ++c)
+            arriving[c] = haze_.left[c] > 0 ? arriving[c] / haze_.left[c] : 0;
     const auto brought = [&](std::size_t g) {
         if (!path_.groups.direct_light(g)) return kBlack;
         return arriving *

@@ -158,7 +158,7 @@ class Integrator {
     /// How many rays go on by each kind of scattering, on average.
     using RayCounts = std::array<float, kGiKinds>;
     [[nodiscard]] RayCounts choose_ray_counts();
-    [[nodiscard]] bool ends_at_lights(const Channel& channel) const;
+    [[nodiscard]] bool leads_nowhere(const Channel& channel) const;
     [[nodiscard]] float volume_rays(const Channel& channel) const;
     [[nodiscard]] float carried() const;
     /// Splits the path: puts one aside for each ray that leaves the surface. True if the ray also goes straight on.

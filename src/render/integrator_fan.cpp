@@ -69,9 +69,11 @@ void Integrator<Tracker>::ask_lights(const Surface& surface, LightPlan plan) {
     }
 }
 
-/// Whether rays through the channel are past their depth limit, for all that comes by them.
+/// Whether rays through the channel are past their depth limit, for all that comes by them, and there are no lights that
+/// they could meet.
 template <class Tracker>
-bool Integrator<Tracker>::ends_at_lights(const Channel& channel) const {
+bool Integrator<Tracker>::leads_nowhere(const Channel& channel) const {
+    if (scene_.lights_can_be_met) return false;
     // Rays that find the background in place of a surface, or show that there is something, are worth it.
     if (channel.record->exit_to_background || channel.record->makes_no_event) return false;
     const std::span<const PathGroup> groups = path_.groups.all();
@@ -93,8 +95,7 @@ template <class Tracker>
 float Integrator<Tracker>::volume_rays(const Channel& channel) const {
     const int n = scene_.settings.gi_samples.volume;
     if (n == 0 || path_.n_scatter > 0 || !path_.fans_out) return n == 0 ? 0 : 1;
-    if (ends_at_lights(channel) && !scene_.lights_can_be_met) return 0;
-    return static_cast<float>(n);
+    return leads_nowhere(channel) ? 0 : static_cast<float>(n);
 }
 
 /// Turns the scatterers' probabilities into numbers of rays.
@@ -114,7 +115,7 @@ auto Integrator<Tracker>::choose_ray_counts() -> RayCounts {
         sum[k] += probability_[i];
         total += probability_[i];
         channel[k] = &of;
-        goes_on[k] = goes_on[k] || !ends_at_lights(of);
+        goes_on[k] = goes_on[k] || !leads_nowhere(of);
     }
     const float weight = carried();
     for (std::size_t k = 0; k < kGiKinds; ++k) {
@@ -128,8 +129,8 @@ auto Integrator<Tracker>::choose_ray_counts() -> RayCounts {
             rays[k] = path_.n_scatter > 0 ? most * sum[k] / total : most;
         else
             rays[k] = most * weight;
-        // Past depth limits rays are there only to meet lights. Walks below the surface ask lights themselves.
-        if (!goes_on[k] && kind != GiKind::Subsurface && !scene_.lights_can_be_met) rays[k] = 0;
+        // Walks below the surface ask lights themselves.
+        if (!goes_on[k] && kind != GiKind::Subsurface) rays[k] = 0;
     }
     for (std::size_t i = 0; i < n; ++i) {
         const auto k = static_cast<std::size_t>(kind_of_[i]);
@@ -205,7 +206,7 @@ void Integrator<Tracker>::put_aside(const Ray& ray) {
     template float Integrator<Tracker>::light_samples(LightPlan, const LightSampler&, Vec3f,     \
                                                       Vec3f, std::uint32_t) const;               \
     template void Integrator<Tracker>::ask_lights(const Surface&, LightPlan);                    \
-    template bool Integrator<Tracker>::ends_at_lights(const Channel&) const;                     \
+    template bool Integrator<Tracker>::leads_nowhere(const Channel&) const;                      \
     template float Integrator<Tracker>::carried() const;                                         \
     template float Integrator<Tracker>::volume_rays(const Channel&) const;                       \
     template auto Integrator<Tracker>::choose_ray_counts() -> RayCounts;                         \

@@ -2,8 +2,7 @@
 
 #include <limits>
 
-#include "nodes/common/node_test_support.h"
-#include "scene/camera.h"
+#include "nodes/camera/camera_test_support.h"
 
 namespace lightsieve {
 
@@ -15,20 +14,6 @@ NodeType node_spherical_camera();
 NodeType node_vr_camera();
 
 namespace {
-
-std::unique_ptr<Camera> make(const TestNode& node, TestContext& context) {
-    return node.type().make_camera(node.block(), context);
-}
-std::unique_ptr<Camera> make(const TestNode& node) {
-    TestContext context;
-    auto camera = make(node, context);
-    EXPECT_EQ(context.diagnostics().items().size(), 0U) << context.diagnostics().render();
-    return camera;
-}
-
-void expect_near(Vec3f a, Vec3f b, float tolerance = 1e-5F) {
-    EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
-}
 
 /// Direction by the formula of the scene format, for a frame of 160 x 120.
 Vec3f formula(float sx, float sy, float fov_deg, float pixel_aspect) {

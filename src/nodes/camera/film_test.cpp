@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "core/sobol.h"
-#include "nodes/common/node_test_support.h"
-#include "scene/camera.h"
+#include "nodes/camera/camera_test_support.h"
 
 namespace lightsieve {
 
@@ -16,18 +15,6 @@ NodeType node_persp_camera();
 
 namespace {
 
-std::unique_ptr<Camera> make(const TestNode& node, TestContext& context) {
-    return node.type().make_camera(node.block(), context);
-}
-std::unique_ptr<Camera> make(const TestNode& node) {
-    TestContext context;
-    auto camera = make(node, context);
-    EXPECT_EQ(context.diagnostics().items().size(), 0U) << context.diagnostics().render();
-    return camera;
-}
-void expect_near(Vec3f a, Vec3f b, float tolerance = 1e-5F) {
-    EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
-}
 Vec2f number(std::uint32_t i) { return Sampler(1, 2, i, 5).at2(0); }
 
 // ---- the aperture

@@ -1,8 +1,7 @@
 // Cameras that look to all sides: which direction belongs to which place of the film.
 #include <gtest/gtest.h>
 
-#include "nodes/common/node_test_support.h"
-#include "scene/camera.h"
+#include "nodes/camera/camera_test_support.h"
 
 namespace lightsieve {
 
@@ -13,19 +12,6 @@ NodeType node_vr_camera();
 
 namespace {
 
-/// The frame is 160 x 120.
-std::unique_ptr<Camera> make(const TestNode& node, TestContext& context) {
-    auto camera = node.type().make_camera(node.block(), context);
-    EXPECT_EQ(context.diagnostics().items().size(), 0U) << context.diagnostics().render();
-    return camera;
-}
-std::unique_ptr<Camera> make(const TestNode& node) {
-    TestContext context;
-    return make(node, context);
-}
-void expect_near(Vec3f a, Vec3f b, float tolerance = 1e-5F) {
-    EXPECT_LT(length(a - b), tolerance) << a.x << " " << a.y << " " << a.z;
-}
 Vec3f direction(const Camera& camera, float x, float y) {
     return camera.ray({x, y}, {}, 0).direction;
 }
@@ -146,6 +132,7 @@ TEST(VrCamera, EyesComeTogetherAtThePoles) {
     TestContext context;
     context.shader = [](const ShadePoint& at) { return Color::grey(at.uv.x); };
     EXPECT_NEAR(length(make(node, context)->ray({0.4F, 0.9F}, {}, 0).origin), 0.6F, 1e-4F);
+    EXPECT_EQ(context.diagnostics().items().size(), 0U) << context.diagnostics().render();
 }
 
 TEST(VrCamera, CubeMaps) {
