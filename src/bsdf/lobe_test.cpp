@@ -157,6 +157,17 @@ TEST(Lobe, SampleReturnsWhatEvalReturns) {
     });
 }
 
+TEST(Lobe, DirectionsThatAreLongByRoundingAreFine) {
+    const Vec3f pole{0, 0, 1 + 0x1p-22F};
+    for_each_lobe([&](const LobeCase&, const LobeModel& model, Vec3f wo, Random&) {
+        for (const auto& [from, to] :
+             {std::pair{wo, pole}, {pole, wo}, {pole, pole}, {pole, -pole}}) {
+            const LobeEval e = eval(model, from, to);
+            ASSERT_TRUE(is_finite(e.f) && std::isfinite(e.pdf));
+        }
+    });
+}
+
 TEST(Lobe, AlbedoIsTheIntegral) {
     for_each_lobe([](const LobeCase& lobe, const LobeModel& model, Vec3f wo, Random& random) {
         const float difference =

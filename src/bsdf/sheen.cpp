@@ -20,7 +20,9 @@ class SheenMasking {
         e_ = lerp(-4.32054F, -4.85967F, t);
     }
     [[nodiscard]] float lambda(float cos_theta) const {
-        return std::exp(cos_theta < 0.5F ? fit(cos_theta) : 2 * fit(0.5F) - fit(1 - cos_theta));
+        // Rounding may leave a cosine a little above 1.
+        const float below = std::max(0.0F, 1 - cos_theta);
+        return std::exp(cos_theta < 0.5F ? fit(cos_theta) : 2 * fit(0.5F) - fit(below));
     }
 
   private:

@@ -19,7 +19,10 @@ class FilteredLight final : public Light {
         : light_(std::move(light)), filters_(std::move(filters)) {}
 
     [[nodiscard]] LightSample sample(Vec3f from, Vec2f u) const override {
-        LightSample s = light_->sample(from, u);
+        return sample_facing(from, {}, u);
+    }
+    [[nodiscard]] LightSample sample_facing(Vec3f from, Vec3f normal, Vec2f u) const override {
+        LightSample s = light_->sample_facing(from, normal, u);
         if (s.pdf > 0) s.radiance = filtered(s.radiance, from, s.wi, s.distance);
         return s;
     }
@@ -30,7 +33,11 @@ class FilteredLight final : public Light {
         return eval;
     }
     [[nodiscard]] LightEval escape(Vec3f from, Vec3f direction) const override {
-        LightEval eval = light_->escape(from, direction);
+        return escape_facing(from, {}, direction);
+    }
+    [[nodiscard]] LightEval escape_facing(Vec3f from, Vec3f normal,
+                                          Vec3f direction) const override {
+        LightEval eval = light_->escape_facing(from, normal, direction);
         eval.radiance = filtered(eval.radiance, from, direction, kInfinity);
         return eval;
     }

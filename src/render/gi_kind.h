@@ -1,6 +1,7 @@
 // The kinds of rays of which options.GI_*_samples say how many leave the vertex where a path splits.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -53,6 +54,13 @@ struct GiSamples {
             case GiKind::Clear: break;
         }
         return transmission > 0 ? 1 : 0;
+    }
+
+    /// Samples of lights where a path splits and there are too many lights to ask each: as many as rays of a kind.
+    [[nodiscard]] constexpr int light_picks() const {
+        constexpr int kMost = 8;
+        return std::clamp(std::max({diffuse, specular, transmission, subsurface, volume}), 1,
+                          kMost);
     }
 };
 

@@ -359,9 +359,12 @@ float Integrator<Tracker>::add_infinite_lights(const Ray& ray) {
     float alpha = 0;
     for (const std::uint32_t index : scene_.infinite_lights) {
         const SceneLight& light = scene_.lights[index];
-        const LightEval eval = path_.n_scatter == 0
-                                   ? light.light->seen(ray.origin, ray.direction)
-                                   : light.light->escape(path_.last.position, ray.direction);
+        const LightEval eval =
+            path_.n_scatter == 0
+                ? light.light->seen(ray.origin, ray.direction)
+                : light.light->escape_facing(path_.last.position,
+                                             light.samples_only ? Vec3f{} : path_.last.facing,
+                                             ray.direction);
         const float shown = path_.n_scatter == 0 ? light.common.camera : light.common.transmission;
         if (seen() && (eval.pdf > 0 || !is_black(eval.radiance) || light.is_skydome))
             alpha = std::max(alpha, unit(shown));

@@ -63,6 +63,7 @@ class Integrator {
     struct LastVertex {
         Vec3f position;
         Vec3f pick_normal;  ///< as given to the light sampler
+        Vec3f facing;       ///< as given to lights, see Light::sample_facing
         const LightSampler* lights = nullptr;
         LightPlan plan = LightPlan::Pick;  ///< which lights were asked there
         float pdf = 0;      ///< of the direction, all lobes and rays together, per solid angle
@@ -155,8 +156,22 @@ class Integrator {
     [[nodiscard]] float light_samples(LightPlan plan, const LightSampler& lights, Vec3f position,
                                       Vec3f normal, std::uint32_t light) const;
     void ask_lights(const Surface& surface, LightPlan plan);
+    /// Which way a surface faces for lights all around. Zero where no rays find what their samples leave to them: light
+    /// that lobes with normals of their own, or that see both sides, get from behind.
+    [[nodiscard]] Vec3f facing(const Surface& surface) const {
+        const bool both_sides = transmissive_ || surface.object->tampers_with_shadows();
+        return both_sides ? Vec3f{} : surface.at.normal;
+    }
     /// How many rays go on by each kind of scattering, on average.
     using RayCounts = std::array<float, kGiKinds>;
+    /// The scatterers of a kind together.
+    struct KindSum {
+        float probability = 0;
+        Color carries;  ///< throughput times albedo; black if there is one scatterer only
+        const Channel* channel = nullptr;  ///< of one of them
+        bool goes_on = false;              ///< its rays may find something
+    };
+    [[nodiscard]] std::array<KindSum, kGiKinds> sort_by_kind();
     [[nodiscard]] RayCounts choose_ray_counts();
     [[nodiscard]] bool leads_nowhere(const Channel& channel) const;
     [[nodiscard]] float volume_rays(const Channel& channel) const;

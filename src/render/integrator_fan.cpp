@@ -5,7 +5,13 @@
 // bright the rest is. A direction still belongs to every lobe: each lobe's value counts over the density of all rays
 // together, the sum of rays times densities (balance heuristic over all kinds, Veach 1997, eq. 9.15). Light samples are
 // weighted against the same sum. A number of rays need not be whole: chance decides about the rest.
+//
+// One sample of each kind means one path, as everywhere else, whose kind is drawn by what it can carry on. Of the rays that
+// the options ask for beyond that, the faint kinds get fewer, by the root of their share: by the share itself the beauty
+// would have the least noise for its time, but the layers of faint kinds ever more. The share is that in the colour where
+// it is largest: upon a red wall the gloss is most of what is blue.
 #include <algorithm>
+#include <cmath>
 
 #include "render/integrator.h"
 #include "render/path_log.h"
@@ -13,13 +19,22 @@
 namespace lightsieve {
 namespace {
 
-/// Up to so many lights are all asked where a path splits; of more, so many are picked.
+/// Up to so many lights are all asked where a path splits.
 constexpr std::size_t kMostLights = 16;
-constexpr int kPicks = 8;
+/// Rays of a kind at least, on average: chance must be able to make one that does not stand for everything.
+constexpr float kLeastRays = 0x1p-8F;
 /// Families of split samples, see Sampler::split: lights, picks, kinds of rays (as many as there are kinds).
 constexpr std::uint32_t kKindFamily = 0, kPickFamily = 32, kLightFamily = 33;
-/// Streams of random numbers: samples of little effect, and whole numbers of rays by kind.
-constexpr std::uint32_t kCoinStream = 2, kCountStream = 32;
+/// Streams of random numbers: samples of little effect.
+constexpr std::uint32_t kCoinStream = 2;
+
+/// The largest of the colours' shares of what the strongest kind carries, 0 to 1; 1 where nobody knows.
+float largest_share(Color carried, Color most) {
+    float share = 0;
+    for (int c = 0; c < 3; ++c)
+        if (most[c] > 0) share = std::max(share, carried[c] / most[c]);
+    return is_black(most) ? 1 : share;
+}
 
 }  // namespace
 
@@ -36,7 +51,8 @@ float Integrator<Tracker>::light_samples(LightPlan plan, const LightSampler& lig
                                          Vec3f position, Vec3f normal, std::uint32_t index) const {
     if (plan == LightPlan::Pick) return lights.probability(position, normal, index);
     if (lights.lights().size() > kMostLights)
-        return kPicks * lights.probability(position, normal, index);
+        return static_cast<float>(scene_.settings.gi_samples.light_picks()) *
+               lights.probability(position, normal, index);
     if (!lights.contains(index)) return 0;
     const SceneLight& light = scene_.lights[index];
     if (plan == LightPlan::Once) return 1;
@@ -50,12 +66,13 @@ void Integrator<Tracker>::ask_lights(const Surface& surface, LightPlan plan) {
     const Vec3f normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
     const std::uint32_t pair = kFirstPair + path_.segment * kPairsPerSegment;
     if (lights.lights().size() > kMostLights) {
-        for (std::uint32_t i = 0; i < kPicks; ++i) {
-            const Sampler part = path_.sampler.split(kPickFamily, i, kPicks);
+        const auto n = static_cast<std::uint32_t>(scene_.settings.gi_samples.light_picks());
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const Sampler part = path_.sampler.split(kPickFamily, i, n);
             const LightPick pick = lights.pick(position, normal, part.at2(pair).y);
             if (pick.probability > 0)
-                ask_light(surface, pick.light, kPicks * pick.probability, part.at2(pair + 2),
-                          part.random(kCoinStream));
+                ask_light(surface, pick.light, static_cast<float>(n) * pick.probability,
+                          part.at2(pair + 2), part.random(kCoinStream));
         }
         return;
     }
@@ -98,43 +115,60 @@ float Integrator<Tracker>::volume_rays(const Channel& channel) const {
     return leads_nowhere(channel) ? 0 : static_cast<float>(n);
 }
 
+/// Sorts the scatterers by the kind of their rays.
+template <class Tracker>
+auto Integrator<Tracker>::sort_by_kind() -> std::array<KindSum, kGiKinds> {
+    std::array<KindSum, kGiKinds> out{};
+    const std::size_t n_closures = closures_.closures().size();
+    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Channel& channel = channels_[channel_of_[i]];
+        kind_of_[i] = gi_kind(*channel.record, i < n_closures && closures_.delta(i));
+        if (!(probability_[i] > 0)) continue;
+        KindSum& sum = out[static_cast<std::size_t>(kind_of_[i])];
+        sum.probability += probability_[i];
+        // What may use each channel is still where choose_probabilities has put it.
+        if (n > 1) sum.carries += values_[channel_of_[i]] * albedo_of(i);
+        sum.channel = &channel;
+        sum.goes_on = sum.goes_on || !leads_nowhere(channel);
+    }
+    return out;
+}
+
 /// Turns the scatterers' probabilities into numbers of rays.
 template <class Tracker>
 auto Integrator<Tracker>::choose_ray_counts() -> RayCounts {
-    const std::size_t n_closures = closures_.closures().size();
-    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
-    RayCounts sum{}, rays{};
-    std::array<bool, kGiKinds> goes_on{};
-    std::array<const Channel*, kGiKinds> channel{};
+    const std::array<KindSum, kGiKinds> sums = sort_by_kind();
     float total = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Channel& of = channels_[channel_of_[i]];
-        kind_of_[i] = gi_kind(*of.record, i < n_closures && closures_.delta(i));
-        const auto k = static_cast<std::size_t>(kind_of_[i]);
-        if (!(probability_[i] > 0)) continue;
-        sum[k] += probability_[i];
-        total += probability_[i];
-        channel[k] = &of;
-        goes_on[k] = goes_on[k] || !leads_nowhere(of);
+    Color most_carried;
+    for (const KindSum& sum : sums) {
+        total += sum.probability;
+        for (int c = 0; c < 3; ++c)
+            most_carried[c] = std::max(most_carried[c], sum.carries[c]);
     }
+    RayCounts rays{};
     const float weight = carried();
     for (std::size_t k = 0; k < kGiKinds; ++k) {
-        if (!(sum[k] > 0)) continue;
+        const KindSum& sum = sums[k];
         const auto kind = static_cast<GiKind>(k);
+        // Walks below the surface ask lights themselves.
+        if (!(sum.probability > 0) || (!sum.goes_on && kind != GiKind::Subsurface)) continue;
         const auto most = static_cast<float>(scene_.settings.gi_samples.of(kind));
+        const float share = sum.probability / total;
         if (kind == GiKind::Volume)
-            rays[k] = volume_rays(*channel[k]);
+            rays[k] = volume_rays(*sum.channel);
         else if (kind == GiKind::Mirror || kind == GiKind::Clear)
             // Behind mirrors as many as come: a hall of mirrors must not make ever more.
-            rays[k] = path_.n_scatter > 0 ? most * sum[k] / total : most;
-        else
-            rays[k] = most * weight;
-        // Walks below the surface ask lights themselves.
-        if (!goes_on[k] && kind != GiKind::Subsurface) rays[k] = 0;
+            rays[k] = path_.n_scatter > 0 ? most * share : most;
+        else if (most > 0)
+            rays[k] = std::max(kLeastRays,
+                               weight * (share + (most - 1) * std::sqrt(largest_share(
+                                                                  sum.carries, most_carried))));
     }
+    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
     for (std::size_t i = 0; i < n; ++i) {
         const auto k = static_cast<std::size_t>(kind_of_[i]);
-        if (probability_[i] > 0) probability_[i] *= rays[k] / sum[k];
+        if (probability_[i] > 0) probability_[i] *= rays[k] / sums[k].probability;
     }
     return rays;
 }
@@ -145,11 +179,13 @@ bool Integrator<Tracker>::fan_out(const Surface& surface, Ray& ray) {
     if (n_channels_ > 0 && !all_delta_) add_light_samples(surface);
     const bool straight = pass_probability_ > 0;
     std::array<std::uint32_t, kGiKinds> n{};
+    // Systematic rounding: one number decides for all kinds, so that parts of rays that add up to one make just one.
     std::uint32_t total = 0;
+    double sum = points_.choice.x;
     for (std::size_t k = 0; k < kGiKinds; ++k) {
-        if (!(rays[k] > 0)) continue;
-        const float u = random(kCountStream + static_cast<std::uint32_t>(k));
-        n[k] = static_cast<std::uint32_t>(rays[k] + u);
+        const auto before = static_cast<std::uint32_t>(sum);
+        sum += rays[k];
+        n[k] = static_cast<std::uint32_t>(sum) - before;
         total += n[k];
     }
     if (total + (straight ? 1 : 0) > 1) {
@@ -209,6 +245,7 @@ void Integrator<Tracker>::put_aside(const Ray& ray) {
     template bool Integrator<Tracker>::leads_nowhere(const Channel&) const;                      \
     template float Integrator<Tracker>::carried() const;                                         \
     template float Integrator<Tracker>::volume_rays(const Channel&) const;                       \
+    template auto Integrator<Tracker>::sort_by_kind() -> std::array<KindSum, kGiKinds>;          \
     template auto Integrator<Tracker>::choose_ray_counts() -> RayCounts;                         \
     template bool Integrator<Tracker>::fan_out(const Surface&, Ray&);                            \
     template void Integrator<Tracker>::put_aside(const Ray&);

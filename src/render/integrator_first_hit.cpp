@@ -135,8 +135,9 @@ ShadowShown Integrator<Tracker>::shadow_on(const Surface& surface, const ShadowM
         const LightPick pick = lights->pick(surface.at.position, normal, std::min(u, kBelowOne));
         if (!(pick.probability > 0)) continue;
         const SceneLight& light = scene_.lights[pick.light];
+        const Vec3f facing = matte.backlighting > 0 ? Vec3f{} : surface.at.normal;
         const LightSample sample =
-            light.light->sample(surface.at.position, {number(1), number(2)});
+            light.light->sample_facing(surface.at.position, facing, {number(1), number(2)});
         float cosine = dot(surface.at.normal, sample.wi);
         if (cosine < 0) cosine *= -matte.backlighting;
         if (!(sample.pdf > 0) || !(cosine > 0)) continue;

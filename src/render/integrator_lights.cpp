@@ -46,7 +46,8 @@ template <class Tracker>
 void Integrator<Tracker>::ask_light(const Surface& surface, std::uint32_t index, float samples,
                                     Vec2f u, float coin) {
     const SceneLight& light = scene_.lights[index];
-    const LightSample sample = light.light->sample(surface.at.position, u);
+    const LightSample sample = light.light->sample_facing(
+        surface.at.position, light.samples_only ? Vec3f{} : facing(surface), u);
     if (!(sample.pdf > 0) || is_black(sample.radiance)) return;
     const std::span<Color> value = cleared_values();
     const float pdf_lobes = evaluate(surface, sample.wi, value);
@@ -184,12 +185,13 @@ void Integrator<Tracker>::add_light_at_exit(const WalkExit& exit) {
     const LightPick pick = lights->pick(surface.at.position, exit.outside, points_.choice.y);
     if (!(pick.probability > 0)) return;
     const SceneLight& light = scene_.lights[pick.light];
-    const LightSample sample = light.light->sample(surface.at.position, points_.light);
+    const bool samples_only = light.samples_only || surface.object->tampers_with_shadows();
+    const LightSample sample = light.light->sample_facing(
+        surface.at.position, samples_only ? Vec3f{} : exit.normal, points_.light);
     const float cosine = dot(exit.normal, sample.wi);
     if (!(sample.pdf > 0) || is_black(sample.radiance) || !(cosine > 0) ||
         !(dot(exit.outside, sample.wi) > 0))
         return;
-    const bool samples_only = light.samples_only || surface.object->tampers_with_shadows();
     const float pdf_light = pick.probability * sample.pdf;
     const float weight =
         sample.delta || samples_only ? 1 : power_heuristic(pdf_light, kInvPi * cosine);

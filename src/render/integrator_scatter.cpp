@@ -135,6 +135,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
     }
     path_.last.position = surface.at.position;
     path_.last.pick_normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
+    path_.last.facing = facing(surface);
     path_.last.lights = surface.object->lights;
     path_.last.plan = plan;
     path_.last.pdf = pdf;
@@ -239,6 +240,7 @@ bool Integrator<Tracker>::scatter_below(const Surface& surface, std::size_t draw
     const Surface& at = exit->surface;
     path_.last.position = at.at.position;
     path_.last.pick_normal = exit->outside;
+    path_.last.facing = at.object->tampers_with_shadows() ? Vec3f{} : exit->normal;
     path_.last.lights = at.object->lights;
     path_.last.plan = LightPlan::Pick;
     path_.last.pdf = kInvPi * dot(exit->normal, wi);

@@ -78,11 +78,16 @@ class Light {
     virtual ~Light() = default;
     /// A direction from `from` toward the light; pdf 0 if none.
     [[nodiscard]] virtual LightSample sample(Vec3f from, Vec2f u) const = 0;
+    /// The same for a surface that faces along unit vector `normal` and has no use for light from behind: lights all
+    /// around choose better directions. Zero: light from everywhere counts.
+    [[nodiscard]] virtual LightSample sample_facing(Vec3f from, Vec3f normal, Vec2f u) const;
     /// A ray from `from` met the light's geometry.
     [[nodiscard]] virtual LightEval hit(Vec3f from, const LightHit& at) const;
     /// A ray from `from` left the scene along unit vector `direction`; black for lights of finite distance.
     [[nodiscard]] virtual LightEval escape(Vec3f from, Vec3f direction) const;
-    /// The same for a ray of the camera, which sees skies beside their portals, too.
+    /// The same with the density of `sample_facing`.
+    [[nodiscard]] virtual LightEval escape_facing(Vec3f from, Vec3f normal, Vec3f direction) const;
+    /// What a ray of the camera finds, which sees skies beside their portals, too.
     [[nodiscard]] virtual LightEval seen(Vec3f from, Vec3f direction) const;
     /// Before the first ray: the portals of the scene, through which skies may want to shine. They outlive the light.
     virtual void set_portals(std::span<const Light* const> portals);
@@ -98,6 +103,12 @@ class Light {
     [[nodiscard]] virtual float irradiance() const { return 0; }
 };
 
+inline LightSample Light::sample_facing(Vec3f from, Vec3f, Vec2f u) const {
+    return sample(from, u);
+}
+inline LightEval Light::escape_facing(Vec3f from, Vec3f, Vec3f direction) const {
+    return escape(from, direction);
+}
 inline LightEval Light::hit(Vec3f, const LightHit&) const { return {}; }
 inline LightEval Light::escape(Vec3f, Vec3f) const { return {}; }
 inline LightEval Light::seen(Vec3f from, Vec3f direction) const { return escape(from, direction); }

@@ -1,8 +1,9 @@
 // skydome_light: light from all around, of one colour or from a picture of the surroundings.
 //
-// A linked colour is sampled by a table of its brightness (sky_table.h), made once by evaluating the shader. With
-// portals (portals.h) directions are drawn through them, too. Seen by the camera a skydome is background (B), not light
-// (L).
+// An even dome is sampled by the cosine to the surface that asks. A linked colour is cut at its mean: what is above is
+// sampled by a table of its brightness (sky_table.h), made once by evaluating the shader, what is below as an even dome;
+// so surfaces do not look for the sky below their horizon. With portals (portals.h) directions are drawn through them,
+// too. Seen by the camera a skydome is background (B), not light (L).
 #include "core/sampling.h"
 #include "nodes/light/dome_format.h"
 #include "nodes/light/light_common.h"
@@ -51,33 +52,36 @@ class DomeSource final : public Light {
     }
 
     [[nodiscard]] LightSample sample(Vec3f from, Vec2f u) const override {
+        return sample_facing(from, {}, u);
+    }
+    [[nodiscard]] LightSample sample_facing(Vec3f from, Vec3f normal, Vec2f u) const override {
         if (portals_.empty()) {
-            const Vec3f wi = sample_dome(u);
-            const LightEval eval = seen(from, wi);
+            const Vec3f wi = sample_dome(normal, u);
+            const LightEval eval = from_dome(normal, wi);
             return {wi, kInfinity, eval.radiance, eval.pdf, false};
         }
         const float through = portal_share(from);
         const bool by_portal = u.x < through;
         u.x = std::min(by_portal ? u.x / through : (u.x - through) / (1 - through),
                        kOneMinusEpsilon);
-        const std::optional<Vec3f> wi = by_portal ? portals_.sample(from, u) : sample_dome(u);
+        const std::optional<Vec3f> wi =
+            by_portal ? portals_.sample(from, u) : sample_dome(normal, u);
         if (!wi) return {};
-        const LightEval eval = escape(from, *wi);
+        const LightEval eval = escape_facing(from, normal, *wi);
         return {*wi, kInfinity, eval.radiance, eval.pdf, false};
     }
     [[nodiscard]] LightEval escape(Vec3f from, Vec3f wi) const override {
-        if (portals_.empty()) return seen(from, wi);
+        return escape_facing(from, {}, wi);
+    }
+    [[nodiscard]] LightEval escape_facing(Vec3f from, Vec3f normal, Vec3f wi) const override {
+        if (portals_.empty()) return from_dome(normal, wi);
         const float by_portals = portals_.pdf(from, wi);
         if (!(by_portals > 0) && portal_mode_ == PortalMode::InteriorOnly) return {};
-        LightEval out = seen(from, wi);
+        LightEval out = from_dome(normal, wi);
         out.pdf = lerp(out.pdf, by_portals, portal_share(from));
         return out;
     }
-    [[nodiscard]] LightEval seen(Vec3f, Vec3f wi) const override {
-        if (table_.empty()) return {emission_.toward(wi), kInvPi / 4};
-        const Vec3f local = axes_.local_from_world(wi);
-        return {emission_.toward(wi, dome_uv(format_, local)), table_.pdf(local)};
-    }
+    [[nodiscard]] LightEval seen(Vec3f, Vec3f wi) const override { return from_dome({}, wi); }
     void set_portals(std::span<const Light* const> portals) override {
         if (portal_mode_ != PortalMode::Off) portals_ = Portals(portals);
     }
@@ -94,9 +98,33 @@ class DomeSource final : public Light {
         return portal_mode_ == PortalMode::InteriorOnly && table_.empty() ? 1 : 0.5F;
     }
 
-    [[nodiscard]] Vec3f sample_dome(Vec2f u) const {
-        return table_.empty() ? sample_uniform_sphere(u)
-                              : axes_.world_from_local(table_.sample(u));
+    /// Part of the samples of a surface that are drawn as from an even dome.
+    [[nodiscard]] float even_part() const {
+        // A surface may not see the bright parts at all.
+        constexpr float kLeast = 0.1F;
+        return table_.empty() ? 1 : std::max(kLeast, table_.even_share());
+    }
+    [[nodiscard]] Vec3f sample_dome(Vec3f normal, Vec2f u) const {
+        if (normal == Vec3f{})
+            return table_.empty() ? sample_uniform_sphere(u)
+                                  : axes_.world_from_local(table_.sample(SkyTable::Part::All, u));
+        const float even = even_part();
+        if (u.x < even)
+            return Frame::from_z(normal).world_from_local(
+                sample_cosine_hemisphere({std::min(u.x / even, kOneMinusEpsilon), u.y}));
+        u.x = std::min((u.x - even) / (1 - even), kOneMinusEpsilon);
+        return axes_.world_from_local(table_.sample(SkyTable::Part::AboveMean, u));
+    }
+    /// Radiance from a direction, and the density with which sample_dome would have chosen it.
+    [[nodiscard]] LightEval from_dome(Vec3f normal, Vec3f wi) const {
+        const bool faces = !(normal == Vec3f{});
+        const float cosine = faces ? kInvPi * std::max(0.0F, dot(normal, wi)) : kInvPi / 4;
+        if (table_.empty()) return {emission_.toward(wi), cosine};
+        const Vec3f local = axes_.local_from_world(wi);
+        const float pdf =
+            faces ? lerp(table_.pdf(SkyTable::Part::AboveMean, local), cosine, even_part())
+                  : table_.pdf(SkyTable::Part::All, local);
+        return {emission_.toward(wi, dome_uv(format_, local)), pdf};
     }
 
     Frame axes_;  ///< light space in the world

@@ -66,6 +66,63 @@ TEST(SkydomeLight, PictureIsSampledByBrightness) {
     EXPECT_LT(black, 100);
 }
 
+/// A light as a surface that faces one way asks it.
+class Asked final : public Light {
+  public:
+    Asked(const Light& light, Vec3f normal) : light_(light), normal_(normal) {}
+    [[nodiscard]] LightSample sample(Vec3f from, Vec2f u) const override {
+        return light_.sample_facing(from, normal_, u);
+    }
+    [[nodiscard]] LightEval escape(Vec3f from, Vec3f direction) const override {
+        return light_.escape_facing(from, normal_, direction);
+    }
+    [[nodiscard]] bool infinite() const override { return true; }
+    [[nodiscard]] LightBounds bounds() const override { return {}; }
+
+  private:
+    const Light& light_;
+    Vec3f normal_;
+};
+
+TEST(SkydomeLight, AnEvenDomeLeavesNothingToChanceForAFacingPlane) {
+    Bench b(node_skydome_light());
+    b.make();
+    const Vec3f normal = normalize(Vec3f{0.3F, -1, 0.4F});
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        const LightSample s = b.light->sample_facing({}, normal, sobol(i));
+        ASSERT_GT(s.pdf, 0);
+        EXPECT_NEAR(dot(s.wi, normal) / s.pdf, kPi, 1e-3F);
+    }
+    EXPECT_EQ(b.light->escape_facing({}, normal, -normal).pdf, 0);
+    expect_strategies_agree(Asked(*b.light, normal), {});
+    expect_directions_follow_density(Asked(*b.light, normal), {});
+}
+
+TEST(SkydomeLight, SurfacesLookForThePictureBelowTheirHorizonLess) {
+    Bench b(node_skydome_light());
+    // A bright patch upon a sky that varies little.
+    b.context->shader = [](const ShadePoint& at) {
+        if (dot(at.direction, normalize(Vec3f{1, 2, 0.5F})) > std::cos(deg_to_rad(15)))
+            return Color{5, 4, 3};
+        return Color{0.2F, 0.3F, 0.3F + at.direction.x * 0.2F};
+    };
+    b.node.set("resolution", 400);
+    b.make();
+    for (const Vec3f normal : {Vec3f{0, 1, 0}, normalize(Vec3f{-1, -2, 0.2F})}) {
+        const Asked asked(*b.light, normal);
+        expect_near(sampled_irradiance(asked, {}, normal, 1U << 17U),
+                    dome_irradiance(*b.light, normal), 4e-3F);
+        expect_strategies_agree(asked, {});
+        expect_directions_follow_density(asked, {});
+        int behind = 0, behind_of_all = 0;
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+            behind += dot(asked.sample({}, sobol(i)).wi, normal) < 0 ? 1 : 0;
+            behind_of_all += dot(b.light->sample({}, sobol(i)).wi, normal) < 0 ? 1 : 0;
+        }
+        EXPECT_LT(behind, behind_of_all * 2 / 3);
+    }
+}
+
 TEST(SkydomeLight, TheSunIsFoundThoughItIsSmallerThanACell) {
     Bench b(node_skydome_light());
     // A sun of a quarter degree that gives three times the sky's light; the shader shows it wider where it is asked for means.
