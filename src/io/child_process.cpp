@@ -1,15 +1,18 @@
 #include "io/child_process.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -51,14 +54,37 @@ struct Pipe {
     Pipe& operator=(const Pipe&) = delete;
 };
 
+/// A socket for the child's standard input: writing to a child that has ended is an error there, not a signal. In use only
+/// if it was asked for.
+struct InputSocket {
+    int child_end = -1, our_end = -1;
+    explicit InputSocket(ChildProcess::Input input) {
+        if (input == ChildProcess::Input::Empty) return;
+        std::array<int, 2> ends{};
+        if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+            throw std::system_error(errno, std::generic_category(), "no socket");
+        child_end = ends[0];
+        our_end = ends[1];
+    }
+    ~InputSocket() {
+        close_end(child_end);
+        close_end(our_end);
+    }
+    InputSocket(const InputSocket&) = delete;
+    InputSocket& operator=(const InputSocket&) = delete;
+};
+
 /// What posix_spawn is told: streams and signals.
 struct SpawnSettings {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
 
-    SpawnSettings(int out, int err) {
+    SpawnSettings(int in, int out, int err) {
         posix_spawn_file_actions_init(&files);
-        posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        if (in >= 0)
+            posix_spawn_file_actions_adddup2(&files, in, STDIN_FILENO);
+        else
+            posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
         posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
         posix_spawn_file_actions_adddup2(&files, err, STDERR_FILENO);
         // Python ignores SIGPIPE, and a host may block signals: a child would inherit both.
@@ -90,14 +116,15 @@ std::chrono::steady_clock::time_point deadline_after(double seconds) {
 }  // namespace
 
 ChildProcess::ChildProcess(const std::string& program, std::span<const std::string> arguments,
-                           double max_seconds)
+                           double max_seconds, Input input)
     : deadline_(deadline_after(max_seconds)) {
     Pipe out, err;
+    InputSocket in(input);
     std::vector<char*> argv{const_cast<char*>(program.c_str())};
     for (const std::string& argument : arguments)
         argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
-    const SpawnSettings settings(out.write_end, err.write_end);
+    const SpawnSettings settings(in.child_end, out.write_end, err.write_end);
     const int problem = ::posix_spawn(&pid_, program.c_str(), &settings.files,
                                       &settings.attributes, argv.data(), environ);
     if (problem != 0) throw std::system_error(problem, std::generic_category(), program);
@@ -105,15 +132,34 @@ ChildProcess::ChildProcess(const std::string& program, std::span<const std::stri
     ::fcntl(err.read_end, F_SETFL, O_NONBLOCK);
     out_ = std::exchange(out.read_end, -1);
     err_ = std::exchange(err.read_end, -1);
+    in_ = std::exchange(in.our_end, -1);
 }
 
 ChildProcess::~ChildProcess() {
+    close_end(in_);
     close_end(out_);
     close_end(err_);
     if (pid_ < 0) return;
     ::kill(pid_, SIGKILL);
     while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
     }
+}
+
+void ChildProcess::set_time(double max_seconds) { deadline_ = deadline_after(max_seconds); }
+
+bool ChildProcess::write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        pollfd fd{in_, POLLOUT, 0};
+        const int ready = ::poll(&fd, 1, milliseconds_left());
+        if (ready < 0 && errno == EINTR) continue;
+        if (ready == 0 && milliseconds_left() > 0) continue;
+        if (ready <= 0) return false;
+        const ssize_t n = ::send(in_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+        if (n <= 0) return false;
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+    return true;
 }
 
 int ChildProcess::milliseconds_left() const {
@@ -194,6 +240,20 @@ ChildProcess::Ending ChildProcess::finish() {
     if (WIFEXITED(status)) ending.exit_code = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) ending.signal = WTERMSIG(status);
     return ending;
+}
+
+std::string helper_path(std::string_view name) {
+    namespace fs = std::filesystem;
+    std::error_code ec;
+    // A module knows its own file; of a program only the system knows, for it may have been called by another name.
+    Dl_info info{};
+    if (::dladdr(reinterpret_cast<const void*>(&helper_path), &info) != 0) {
+        const fs::path module = fs::canonical(info.dli_fname, ec);
+        const fs::path beside = module.parent_path() / name;
+        if (!ec && fs::exists(beside, ec)) return beside.string();
+    }
+    const fs::path program = fs::read_symlink("/proc/self/exe", ec);
+    return (program.parent_path() / name).string();
 }
 
 }  // namespace lightsieve

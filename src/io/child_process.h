@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <sys/types.h>
 
@@ -15,15 +16,23 @@ namespace lightsieve {
 
 class ChildProcess {
   public:
-    /// Starts `program` (a path) with `arguments`; its standard input is empty.
+    /// What the child finds on its standard input.
+    enum class Input : unsigned char { Empty, Pipe };
+    /// Starts `program` (a path) with `arguments`.
     ///
     /// max_seconds  wall-clock time after which reads and the wait for its end give up [s]
     /// throws       std::system_error: cannot be started
     ChildProcess(const std::string& program, std::span<const std::string> arguments,
-                 double max_seconds);
+                 double max_seconds, Input input = Input::Empty);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
+
+    /// From now on this much wall-clock time is left [s].
+    void set_time(double max_seconds);
+
+    /// Writes all of `bytes` to a child with Input::Pipe. False: it has ended, or takes nothing until its time is up.
+    [[nodiscard]] bool write(std::span<const std::byte> bytes);
 
     enum class Read : unsigned char { Complete, Ended, TimedOut };
     /// Fills all of `out` from standard output. Ended: there was less.
@@ -48,9 +57,12 @@ class ChildProcess {
     [[nodiscard]] int milliseconds_left() const;
 
     pid_t pid_ = -1;
-    int out_ = -1, err_ = -1;  ///< our ends of the pipes; -1: closed
+    int in_ = -1, out_ = -1, err_ = -1;  ///< our ends of the pipes; -1: closed
     std::chrono::steady_clock::time_point deadline_;
     std::string errors_;
 };
+
+/// Where a program of ours is that runs as a child: beside the module or program that this code is in.
+[[nodiscard]] std::string helper_path(std::string_view name);
 
 }  // namespace lightsieve

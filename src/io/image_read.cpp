@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/image_open.h"
+#include "io/image_try.h"
 #include "io/texture_input.h"
 
 namespace lightsieve {
@@ -28,12 +30,12 @@ ColorImage read_color_image(const std::string& path, std::string_view color_spac
     if (!std::filesystem::exists(path, ec))
         fail(Code::FileNotFound, "there is no picture \"" + path + "\"", where,
              "check the name and the search paths");
-    const OIIO::ImageSpec config = reader_settings();
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
-    if (!input) damaged(path, OIIO::geterror(), where);
+    std::string problem;
+    if (!try_image(path, problem)) damaged(path, problem, where);
+    const std::unique_ptr<OIIO::ImageInput> input = open_image(path, problem);
+    if (!input) damaged(path, problem, where);
     const OIIO::ImageSpec spec = input->spec();
-    if (spec.deep || spec.depth > 1 || spec.nchannels < 1)
-        damaged(path, "it is deep or three-dimensional", where);
+    if (spec.deep || spec.depth > 1) damaged(path, "it is deep or three-dimensional", where);
     if (static_cast<std::size_t>(spec.image_pixels()) > max_pixels) {
         fail(Code::LimitImageSize,
              "picture \"" + path + "\" has " + std::to_string(spec.width) + "x" +

@@ -11,6 +11,8 @@
 #include <mutex>
 #include <tuple>
 
+#include "io/image_open.h"
+#include "io/image_try.h"
 #include "io/texture_input.h"
 
 namespace lightsieve {
@@ -121,12 +123,9 @@ void report(Diagnostics& diagnostics, Code code, const std::string& message,
 
 /// Describes a file without keeping it open. False with `problem` set.
 bool read_info(const std::string& path, TextureInfo& info, std::string& problem) {
-    const OIIO::ImageSpec config = reader_settings();
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
-    if (!input) {
-        problem = OIIO::geterror();
-        return false;
-    }
+    if (!try_image(path, problem)) return false;
+    const std::unique_ptr<OIIO::ImageInput> input = open_image(path, problem);
+    if (!input) return false;
     const OIIO::ImageSpec& spec = input->spec();
     info.width = spec.width;
     info.height = spec.height;

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstring>
 
+#include "io/image_open.h"
+
 namespace lightsieve {
 
 namespace {
@@ -14,20 +16,12 @@ constexpr int kTileSize = 64;
 constexpr std::size_t kMaxWholeImage = std::size_t{512} << 20;
 /// All such files together.
 constexpr std::size_t kMaxAllWholeImages = std::size_t{1} << 30;
-/// Files with more channels are no pictures.
-constexpr int kMaxChannels = 1024;
 
 std::atomic<std::size_t> whole_image_bytes{0};
 
 }  // namespace
 
 bool is_float_format(const OIIO::ImageSpec& spec) { return spec.format.is_floating_point(); }
-
-OIIO::ImageSpec reader_settings() {
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    return config;
-}
 
 TexelConversion::TexelConversion(const OIIO::ImageSpec& spec, ColorSpace from, ColorSpace to)
     : color(from, to),
@@ -91,15 +85,15 @@ bool ConvertingInput::open(const std::string&, OIIO::ImageSpec& spec,
     const std::string path = config.get_string_attribute("lightsieve:path");
     const ColorSpace from = space_of(config, "lightsieve:from"),
                      to = space_of(config, "lightsieve:to");
-    const OIIO::ImageSpec inner_config = reader_settings();
-    inner_ = OIIO::ImageInput::open(path, &inner_config);
+    std::string problem;
+    inner_ = open_image(path, problem);
     if (!inner_) {
-        errorfmt("{}", OIIO::geterror());
+        errorfmt("{}", problem);
         return false;
     }
     const OIIO::ImageSpec& s = inner_->spec();
-    if (s.deep || s.depth > 1 || s.nchannels < 1 || s.nchannels > kMaxChannels) {
-        errorfmt("\"{}\" is deep, three-dimensional or has {} channels", path, s.nchannels);
+    if (s.deep || s.depth > 1) {
+        errorfmt("\"{}\" is deep or three-dimensional", path);
         return false;
     }
     conversion_ = TexelConversion(s, from, to);

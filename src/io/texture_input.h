@@ -40,8 +40,6 @@ struct TexelConversion {
 
 /// Half or float; integers are taken for sRGB when a scene says "auto".
 [[nodiscard]] bool is_float_format(const OIIO::ImageSpec& spec);
-/// The settings with which readers are opened: alpha as it is in the file.
-[[nodiscard]] OIIO::ImageSpec reader_settings();
 
 class ConvertingInput final : public OIIO::ImageInput {
   public:

@@ -1,6 +1,5 @@
 #include "io/volume_reader.h"
 
-#include <dlfcn.h>
 #include <signal.h>
 
 #include <algorithm>
@@ -223,19 +222,7 @@ void VolumeBlock::Delete::operator()(std::byte* bytes) const {
     ::operator delete(bytes, std::align_val_t{kVolumeGridAlignment});
 }
 
-std::string volume_reader_path() {
-    namespace fs = std::filesystem;
-    std::error_code ec;
-    // A module knows its own file; of a program only the system knows, for it may have been called by another name.
-    Dl_info info{};
-    if (::dladdr(reinterpret_cast<const void*>(&volume_reader_path), &info) != 0) {
-        const fs::path module = fs::canonical(info.dli_fname, ec);
-        const fs::path beside = module.parent_path() / kVolumeReaderName;
-        if (!ec && fs::exists(beside, ec)) return beside.string();
-    }
-    const fs::path program = fs::read_symlink("/proc/self/exe", ec);
-    return (program.parent_path() / kVolumeReaderName).string();
-}
+std::string volume_reader_path() { return helper_path(kVolumeReaderName); }
 
 std::vector<RawVolumeGrid> run_volume_reader(const std::string& reader, const std::string& path,
                                              std::span<const std::string> names,

@@ -2,11 +2,12 @@
 // debugger. It takes the few options that change what is executed; the command line for people is in python/.
 //
 //     lightsieve_tool check SCENE.ass
-//     lightsieve_tool render SCENE.ass [-o PATH] [--spp N] [--size WxH] [--threads N]
+//     lightsieve_tool render SCENE.ass [-o PATH] [--aa N] [--spp N] [--size WxH] [--threads N]
 
 #include <charconv>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,7 +25,8 @@ namespace {
 constexpr int kOk = 0, kInputError = 1, kUsageError = 2;
 constexpr std::string_view kUsage =
     "usage: lightsieve_tool check SCENE.ass\n"
-    "       lightsieve_tool render SCENE.ass [-o PATH] [--spp N] [--size WxH] [--threads N]\n";
+    "       lightsieve_tool render SCENE.ass [-o PATH] [--aa N] [--spp N] [--size WxH] [--threads "
+    "N]\n";
 
 struct Command {
     bool render = false;
@@ -55,6 +57,8 @@ bool set_option(RenderOptions& options, std::string_view name, std::string_view 
     const std::optional<int> n = number(value);
     if (name == "--spp")
         options.spp = n.value_or(0);
+    else if (name == "--aa")
+        options.aa_samples = n.value_or(0);
     else if (name == "--threads")
         options.threads = n.value_or(0);
     else
@@ -107,6 +111,8 @@ int tool_main(const std::vector<std::string_view>& arguments) {
         code = run(*command, diagnostics);
     } catch (const InputError& error) {
         std::fprintf(stderr, "%s\n", error.what());
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "error[limit-memory]: not enough memory\n");
     }
     std::fputs(diagnostics.render().c_str(), stderr);
     return code;

@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import pytest
+
 import lightsieve._core
 
 
-def test_the_reader_of_volumes_lies_beside_the_module() -> None:
-    reader = Path(lightsieve._core.__file__).parent / "lightsieve_vdb_reader"
-    assert os.access(reader, os.X_OK)
+@pytest.mark.parametrize("program", ["lightsieve_vdb_reader", "lightsieve_image_reader"])
+def test_the_programs_that_read_files_lie_beside_the_module(program: str) -> None:
+    assert os.access(Path(lightsieve._core.__file__).parent / program, os.X_OK)

@@ -20,6 +20,7 @@ LAYERS = {
     "render": {"core", "lpe", "bsdf", "io", "scene"},
     "python": {"core", "lpe", "embed", "bsdf", "io", "scene", "nodes", "render"},
     "vdb_reader": {"io"},
+    "image_reader": {"io"},
     "tool": {"core", "lpe", "bsdf", "io", "scene", "nodes", "render"},
 }
 
