@@ -23,8 +23,22 @@ def write(path: Path, resolution: int = 512) -> None:
         up=(0, 1, 0),
         fov=36,
     )
-    text += node("skydome_light", name="dome", color=(0.5, 0.6, 0.8), camera=0, intensity=0.3)
-    text += node("point_light", name="lamp", position=(2, 3, 1.5), radius=0.3, intensity=80)
+    text += node(
+        "skydome_light",
+        name="dome",
+        color=(0.5, 0.6, 0.8),
+        camera=0,
+        intensity=0.3,
+        volume_samples=1,
+    )
+    text += node(
+        "point_light",
+        name="lamp",
+        position=(2, 3, 1.5),
+        radius=0.3,
+        intensity=80,
+        volume_samples=1,
+    )
     text += node(
         "standard_volume",
         name="smoke",
