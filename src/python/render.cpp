@@ -5,12 +5,14 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "lpe/path.h"
@@ -259,6 +261,17 @@ void add_results(nb::module_& module) {
             "samples", [](const Outcome& o) { return o.result.samples; }, "Camera samples taken.")
         .def_prop_ro(
             "rays", [](const Outcome& o) { return o.result.rays; }, "Closest-hit and shadow rays.")
+        .def_prop_ro(
+            "noise",
+            [](const Outcome& o) {
+                std::vector<std::tuple<std::string, double, double>> out;
+                for (const LayerNoise& layer : o.result.noise)
+                    out.emplace_back(layer.name, layer.mean, layer.error);
+                return out;
+            },
+            "Of each layer of light its name, mean luminance, and the standard error of a pixel's "
+            "luminance (root mean "
+            "square over the picture), as halves of the samples tell.")
         .def_prop_ro(
             "dropped_samples", [](const Outcome& o) { return o.result.dropped_samples; },
             "Contributions that were not finite.")

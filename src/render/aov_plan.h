@@ -43,6 +43,12 @@ enum class LayerSource : std::uint8_t {
     Black,             ///< an expression with an error, under abort_on_error off
 };
 
+/// Whether the layer's values are sums of light.
+[[nodiscard]] constexpr bool is_light(LayerSource source) {
+    return source == LayerSource::Beauty || source == LayerSource::Expression ||
+           source == LayerSource::Black;
+}
+
 /// Names of the AOVs that are no light path expressions.
 [[nodiscard]] std::vector<std::string> data_aov_names();
 
@@ -89,6 +95,7 @@ struct AovPlan {
     std::optional<lpe::Program> program;
     bool wants_probes = false;  ///< some expression can take an albedo probe
     bool wants_beauty = false;
+    std::optional<std::size_t> adaptive_layer;  ///< whose noise asks for samples; else the beauty
     lpe::BuiltinTable table = lpe::BuiltinTable::Reference;  ///< which built-ins the scene uses
     std::vector<std::string> light_groups;  ///< named groups of the scene's lights
     std::vector<lpe::NamedExpr> custom;     ///< expressions that the scene and the caller define

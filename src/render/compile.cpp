@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "render/adaptive.h"
 #include "render/compiler.h"
 #include "render/shade_services.h"
 #include "scene/assemble.h"
@@ -83,6 +84,7 @@ ScenePtr Compiler::run() {
                  has_caustics()},
                 scene_->plan, diagnostics_);
     const std::size_t forgiven = abort_on_error_ ? 0 : diagnostics_.n_errors() - before;
+    find_adaptive_layer();
     make_cameras();
     make_views();
     part_passes();
@@ -118,6 +120,19 @@ SourceSpan Compiler::option_place(Name param) const {
     return graph_.options() == nullptr ? SourceSpan{} : graph_.options()->where(param);
 }
 
+/// Adaptive sampling: as Arnold, only with at least four samples a pixel.
+void Compiler::read_adaptive() {
+    RenderSettings& s = scene_->settings;
+    s.samples_max = s.samples;
+    const int most = option<std::int32_t>("AA_samples_max", 20);
+    // Who asks for a number of samples gets it.
+    if (!option("enable_adaptive_sampling", false) || s.samples < 4 || options_.spp > 0) return;
+    s.samples_max = std::max(s.samples, std::max(most, 1) * std::max(most, 1));
+    s.adaptive_threshold = std::max(0.0F, option("AA_adaptive_threshold", 0.015F));
+    // Buckets are whole blocks, so that decisions do not depend on their size.
+    s.bucket_size = (s.bucket_size + kAdaptiveBlock - 1) / kAdaptiveBlock * kAdaptiveBlock;
+}
+
 void Compiler::read_settings() {
     RenderSettings& s = scene_->settings;
     for (const char* param : {"texture_searchpath", "asset_searchpath"})
@@ -151,6 +166,7 @@ void Compiler::read_settings() {
     const std::int64_t squared = std::int64_t{std::max(aa, 1)} * std::max(aa, 1);
     s.samples = options_.spp > 0 ? options_.spp
                                  : static_cast<int>(std::min<std::int64_t>(squared, kMaxSamples));
+    read_adaptive();
     s.seed = options_.seed ? *options_.seed
                            : static_cast<std::uint32_t>(option<std::int32_t>("AA_seed", 1));
     s.threads = options_.threads;

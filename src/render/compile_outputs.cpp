@@ -82,6 +82,24 @@ bool has_negative_lobes(const PixelFilter& filter) {
 
 }  // namespace
 
+void Compiler::find_adaptive_layer() {
+    const Name wanted = option<Name>("adaptive_aov", {});
+    if (wanted.empty() || scene_->settings.samples_max <= scene_->settings.samples) return;
+    AovPlan& plan = scene_->plan;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < plan.layers.size(); ++i) {
+        if (!is_light(plan.layers[i].source)) continue;
+        if (plan.layers[i].info.aov == wanted.view()) plan.adaptive_layer = i;
+        names.push_back(plan.layers[i].info.aov);
+    }
+    if (plan.adaptive_layer) return;
+    const std::string nearest = did_you_mean(wanted.view(), names);
+    diagnostics_.warning(Code::InvalidValue,
+                         "adaptive_aov \"" + wanted.str() + "\" is no output of light",
+                         option_place("adaptive_aov"),
+                         nearest.empty() ? "the noise of the beauty decides" : nearest);
+}
+
 void Compiler::make_views() {
     for (FilterView& view : scene_->plan.views) {
         const NodeType* type =

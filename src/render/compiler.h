@@ -59,6 +59,9 @@ class Compiler {
     // compile.cpp
     void read_settings();
     void read_region();
+    void read_adaptive();
+    /// The layer that options.adaptive_aov names.
+    void find_adaptive_layer();
     void make_cameras();
     void finish_depth_rules();
     void summarize_scene();

@@ -3,21 +3,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 
 namespace lightsieve {
 namespace {
 
-void add_to(std::array<double, 3>& sum, Color value, double factor) {
+void add_color(std::array<double, 3>& sum, Color value, double factor) {
     sum[0] += double{value.r} * factor;
     sum[1] += double{value.g} * factor;
     sum[2] += double{value.b} * factor;
-}
-
-bool is_light(LayerSource source) {
-    return source == LayerSource::Beauty || source == LayerSource::Expression ||
-           source == LayerSource::Black;
 }
 
 }  // namespace
@@ -38,6 +34,7 @@ void Film::begin(const Pass& pass, int width, int height) {
         sums.beauty.assign(n, {});
         sums.alpha.assign(n, 0);
         sums.weight.assign(n, 0);
+        sums.half_weight.assign(n, 0);
         sums.count.assign(n, 0);
         sums.slot_of.assign(n_keys, -1);
         sums.n_slots = 0;
@@ -54,7 +51,7 @@ void Film::begin(const Pass& pass, int width, int height) {
     }
 }
 
-std::vector<Film::Sum>& Film::slot(ViewSums& sums, std::uint32_t key) {
+std::vector<Film::LightSum>& Film::slot(ViewSums& sums, std::uint32_t key) {
     std::int32_t& at = sums.slot_of[key];
     if (at < 0) {
         at = static_cast<std::int32_t>(sums.n_slots++);
@@ -66,7 +63,7 @@ std::vector<Film::Sum>& Film::slot(ViewSums& sums, std::uint32_t key) {
 }
 
 void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offset,
-               std::span<const float> weights) {
+               std::span<const float> weights, bool in_half) {
     const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                               static_cast<std::size_t>(x);
     for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -77,32 +74,40 @@ void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offs
             continue;
         }
         sums.weight[pixel] += weight;
+        if (in_half) sums.half_weight[pixel] += weight;
         ++sums.count[pixel];
         sums.alpha[pixel] += double{sample.alpha} * weight;
-        add_light(sums, pixel, sample, double{scale}, weight);
+        add_light(sums, pixel, sample, {double{scale}, weight, in_half});
         add_written(sums, pixel, sample, weight);
         if (wants_data_) add_data(sums, pixel, sample.first, weight);
     }
 }
 
-void Film::add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp,
-                     double weight) {
-    add_to(sums.beauty[pixel], sample.beauty, clamp * weight);
-    add_to_atoms(sums, pixel, sample.contributions, clamp * weight);
-    add_to_atoms(sums, pixel, sample.probes, weight);
+void Film::add_to(LightSum& sum, Color value, double factor, bool in_half) {
+    add_color(sum.color, value, factor);
+    if (in_half) sum.half += double{luminance(value)} * factor;
+}
+
+void Film::add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample,
+                     const Share& share) {
+    const double factor = share.clamp * share.weight;
+    add_to(sums.beauty[pixel], sample.beauty, factor, share.in_half);
+    add_to_atoms(sums, pixel, sample.contributions, factor, share.in_half);
+    add_to_atoms(sums, pixel, sample.probes, share.weight, share.in_half);
 }
 
 void Film::add_to_atoms(ViewSums& sums, std::size_t pixel,
-                        std::span<const SampleBuffer::Contribution> contributions, double factor) {
+                        std::span<const SampleBuffer::Contribution> contributions, double factor,
+                        bool in_half) {
     const lpe::Program& program = *plan_.program;
     const bool atoms = program.film_stores_atoms();
     for (const SampleBuffer::Contribution& c : contributions) {
         if (atoms) {
-            add_to(slot(sums, c.atom)[pixel], c.value, factor);
+            add_to(slot(sums, c.atom)[pixel], c.value, factor, in_half);
             continue;
         }
         for (std::uint32_t aov : program.aovs_of(c.atom))
-            add_to(slot(sums, aov)[pixel], c.value, factor);
+            add_to(slot(sums, aov)[pixel], c.value, factor, in_half);
     }
 }
 
@@ -120,7 +125,7 @@ void Film::add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer&
     sums.beauty[pixel] = {};
     for (std::size_t i = 0; i < sums.n_slots; ++i)
         sums.slots[i][pixel] = {};
-    add_light(sums, pixel, sample, clamp, 1);
+    add_light(sums, pixel, sample, {clamp, 1, false});
     for (auto& written : sums.written)
         written[pixel] = {};
     add_written(sums, pixel, sample, 1);
@@ -138,16 +143,16 @@ void Film::add_written(ViewSums& sums, std::size_t pixel, const SampleBuffer& sa
 }
 
 void Film::add_data(ViewSums& sums, std::size_t pixel, const FirstHit& f, double weight) {
-    add_to(sums.volume_opacity[pixel], f.volume_opacity, weight);
+    add_color(sums.volume_opacity[pixel], f.volume_opacity, weight);
     if (!f.hit) return;
     const std::array<float, 9> values{f.depth,      f.normal.x,   f.normal.y,
                                       f.normal.z,   f.position.x, f.position.y,
                                       f.position.z, f.uv.x,       f.uv.y};
     for (std::size_t i = 0; i < values.size(); ++i)
         sums.data[pixel][i] += double{values[i]} * weight;
-    add_to(sums.opacity[pixel], f.opacity, weight);
-    add_to(sums.shadow[pixel], f.shadow.by_channel, weight);
-    add_to(sums.shadow_difference[pixel], f.shadow.difference, weight);
+    add_color(sums.opacity[pixel], f.opacity, weight);
+    add_color(sums.shadow[pixel], f.shadow.by_channel, weight);
+    add_color(sums.shadow_difference[pixel], f.shadow.difference, weight);
     sums.shadow_mask[pixel] += double{f.shadow.mask} * weight;
     // Ids cannot be averaged: the nearest sample's stands for the pixel.
     if (f.depth < sums.nearest_rank[pixel]) {
@@ -181,11 +186,11 @@ void Film::resolve(const PlannedLayer& layer, std::vector<float>& out) const {
     resolve_data(sums, layer, out);
 }
 
-void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer,
-                         std::vector<float>& out) const {
+std::vector<const std::vector<Film::LightSum>*> Film::parts_of(const ViewSums& sums,
+                                                               const PlannedLayer& layer) const {
     const lpe::Program& program = *plan_.program;
-    // The slots whose sum is this layer, in the order of their atoms: the sum must not depend on which came first.
-    std::vector<const std::vector<Sum>*> parts;
+    // In the order of their atoms: sums must not depend on which came first.
+    std::vector<const std::vector<LightSum>*> parts;
     if (layer.source == LayerSource::Beauty) parts.push_back(&sums.beauty);
     if (layer.source == LayerSource::Expression)
         for (std::uint32_t key = 0; key < sums.slot_of.size(); ++key) {
@@ -196,13 +201,43 @@ void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer,
             if (std::find(aovs.begin(), aovs.end(), layer.aov) != aovs.end())
                 parts.push_back(&sums.slots[static_cast<std::size_t>(sums.slot_of[key])]);
         }
+    return parts;
+}
+
+void Film::estimate_noise(const PlannedLayer* layer, std::vector<PixelNoise>& out) const {
+    const ViewSums& sums = layer == nullptr ? views_.front() : sums_of(layer->view);
+    const std::vector<const std::vector<LightSum>*> parts =
+        layer == nullptr ? std::vector{&sums.beauty} : parts_of(sums, *layer);
+    out.assign(sums.beauty.size(), {});
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        double all = 0, half = 0;
+        for (const std::vector<LightSum>* part : parts) {
+            const Sum& c = (*part)[i].color;
+            all += double{luminance(Color(static_cast<float>(c[0]), static_cast<float>(c[1]),
+                                          static_cast<float>(c[2])))};
+            half += (*part)[i].half;
+        }
+        const double weight = sums.weight[i], in_half = sums.half_weight[i],
+                     in_other = weight - in_half;
+        if (!(in_half > 0) || !(in_other > 0)) {
+            out[i] = {weight > 0 ? all / weight : 0, std::numeric_limits<double>::infinity()};
+            continue;
+        }
+        const double apart = half / in_half - all / weight;
+        out[i] = {all / weight, apart * apart * in_half / in_other};
+    }
+}
+
+void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer,
+                         std::vector<float>& out) const {
+    const std::vector<const std::vector<LightSum>*> parts = parts_of(sums, layer);
     const std::size_t n = sums.beauty.size(), channels = layer.info.n_channels;
     for (std::size_t i = 0; i < n; ++i) {
         const double norm = norm_of(sums, i);
         Sum total{};
-        for (const std::vector<Sum>* part : parts)
+        for (const std::vector<LightSum>* part : parts)
             for (std::size_t c = 0; c < 3; ++c)
-                total[c] += (*part)[i][c];
+                total[c] += (*part)[i].color[c];
         float* at = &out[i * channels];
         if (channels == 1) {
             at[0] = luminance(Color(static_cast<float>(total[0] * norm),

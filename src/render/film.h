@@ -1,7 +1,8 @@
 // Sums of one bucket: the beauty, one sum for each atom that light fell into, and data of the nearest hits.
 //
 // Everything is kept in double and rounded once. A sample's contributions wait in a SampleBuffer until the sample ends,
-// because clamping scales all of them by one factor, so that layers still add up.
+// because clamping scales all of them by one factor, so that layers still add up. Beside each sum is that of the brightness
+// of about half of the samples: how far the two are apart tells how much noise is left.
 // A film belongs to one thread and one bucket; it is resolved to layers and reused.
 #pragma once
 
@@ -60,6 +61,15 @@ struct SampleBuffer {
     }
 };
 
+/// How bright a pixel of a layer is, and how far that is from the truth, by what halves of the samples say.
+///
+/// Source: Dammertz, Hanika, Keller and Lensch 2010, "A Hierarchical Automatic Stopping Condition for Monte Carlo Global
+/// Illumination"; squared and scaled so that the mean of `variance` is that of `mean`, however unlike the halves are.
+struct PixelNoise {
+    double mean = 0;      ///< luminance
+    double variance = 0;  ///< of `mean`; infinite if one half has no samples
+};
+
 class Film {
   public:
     explicit Film(const AovPlan& plan) : plan_(plan) {}
@@ -71,24 +81,36 @@ class Film {
     /// scale    factor of clamping on all light
     /// offset   of the sample from the pixel's centre [pixels]
     /// weights  one a view of the pass: the filter's value over the sampling density
+    /// in_half  whether the sample is one of the half that tells noise; halves must be well spread, each for itself
     void add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offset,
-             std::span<const float> weights);
+             std::span<const float> weights, bool in_half);
     /// Values of a layer for the whole bucket: height * width * n_channels floats, row by row.
     void resolve(const PlannedLayer& layer, std::vector<float>& out) const;
 
+    /// Noise of all pixels of the bucket, row by row: of a layer of light, or of the beauty through the pass's first filter.
+    ///
+    /// layer  null: the beauty
+    void estimate_noise(const PlannedLayer* layer, std::vector<PixelNoise>& out) const;
+
   private:
     using Sum = std::array<double, 3>;
+    /// Light: a colour, and the luminance of the half of the samples that tells noise.
+    struct LightSum {
+        Sum color{};
+        double half = 0;
+    };
     /// Beyond every depth of a hit: rank of samples that met nothing.
     static constexpr float kLargestDepth = 1e30F;
     /// Sums of one filter view.
     struct ViewSums {
         std::uint32_t view = 0;
-        std::vector<Sum> beauty;
+        std::vector<LightSum> beauty;
         std::vector<double> alpha;
         std::vector<double> weight;         ///< sum of filter weights a pixel
+        std::vector<double> half_weight;    ///< the same of one half of the samples
         std::vector<std::uint32_t> count;   ///< samples a pixel
         std::vector<std::int32_t> slot_of;  ///< by atom (or AOV): -1 until light falls into it
-        std::vector<std::vector<Sum>> slots;
+        std::vector<std::vector<LightSum>> slots;
         std::size_t n_slots = 0;
         /// Data layers: means under a filter, or the nearest sample.
         std::vector<std::array<double, 9>> data;  ///< depth, normal, position, uv
@@ -99,12 +121,21 @@ class Film {
         std::vector<float> nearest_rank;  ///< the smaller the nearer
         bool closest = false;
     };
-    std::vector<Sum>& slot(ViewSums& sums, std::uint32_t key);
-    /// clamp, weight  factors of clamping and of the filter
-    void add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample, double clamp,
-                   double weight);
+    std::vector<LightSum>& slot(ViewSums& sums, std::uint32_t key);
+    /// What becomes of a sample's light: factors of clamping and of the filter, and whether it is in the half.
+    struct Share {
+        double clamp, weight;
+        bool in_half;
+    };
+    static void add_to(LightSum& sum, Color value, double factor, bool in_half);
+    void add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample,
+                   const Share& share);
     void add_to_atoms(ViewSums& sums, std::size_t pixel,
-                      std::span<const SampleBuffer::Contribution> contributions, double factor);
+                      std::span<const SampleBuffer::Contribution> contributions, double factor,
+                      bool in_half);
+    /// The sums that a layer is the sum of, in the order of their atoms.
+    [[nodiscard]] std::vector<const std::vector<LightSum>*> parts_of(
+        const ViewSums& sums, const PlannedLayer& layer) const;
     void add_data(ViewSums& sums, std::size_t pixel, const FirstHit& hit, double weight);
     static void add_written(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample,
                             double weight);

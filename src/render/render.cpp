@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
 #include "core/parallel.h"
 #include "core/version.h"
 #include "lpe/path.h"
+#include "render/adaptive.h"
 #include "render/camera_sample.h"
 #include "render/integrator.h"
 
@@ -44,8 +46,6 @@ struct DroppedSample {
 /// As many are described, for somebody who wants to trace them again.
 constexpr std::size_t kDescribedDrops = 10;
 
-/// Samples that a pixel takes in one go. A bucket of more fills evenly: when it is stopped it shows all of itself, with noise.
-constexpr int kSamplesInOneGo = 64;
 /// Samples of a thread between two reports of progress: some hundred reports a second.
 constexpr std::uint64_t kSamplesAReport = 1024;
 
@@ -57,6 +57,7 @@ struct Worker {
     SampleBuffer sample;
     std::vector<float> weights;
     std::vector<std::vector<float>> layers;  ///< by layer of the plan
+    std::vector<PixelNoise> noise;           ///< of the bucket
     std::vector<DroppedSample> dropped;      ///< the first few
     std::uint64_t n_unreported = 0;          ///< samples since the last report of progress
 };
@@ -76,10 +77,12 @@ class Renderer {
   private:
     [[nodiscard]] ImageHeader header_of(const PlannedDriver& driver, std::size_t index) const;
     void open_drivers();
-    void render_bucket(Worker& worker, const BucketRect& rect);
+    void render_bucket(Worker& worker, std::size_t index, const BucketRect& rect);
     void render_pass(Worker& worker, const Pass& pass, const BucketRect& rect);
     bool take_samples(Worker& worker, const CameraSampler& camera, const BucketRect& rect, int x,
-                      int y, int first, int n);
+                      int y, const SampleSchedule& schedule);
+    void measure_noise(Worker& worker, std::size_t bucket, std::size_t layer);
+    void report_noise();
     void report_progress(Worker& worker);
     static void note_dropped(Worker& worker, int x, int y, int index);
     void deliver(const Worker& worker, const BucketRect& rect);
@@ -99,7 +102,13 @@ class Renderer {
     std::mutex output_mutex_, progress_mutex_, workers_mutex_;
     std::atomic<std::uint64_t> samples_done_ = 0;
     std::vector<std::unique_ptr<Worker>> workers_, idle_;
-    std::uint64_t samples_total_ = 0;
+    std::atomic<std::uint64_t> samples_total_ = 0;  ///< at most
+    /// Sums over the pixels of each bucket, by layer: added up in order when all are done.
+    struct NoiseSum {
+        double mean = 0, variance = 0;
+        std::uint64_t n = 0;
+    };
+    std::vector<std::vector<NoiseSum>> noise_;
     Clock::time_point start_;
 };
 
@@ -118,6 +127,7 @@ ImageHeader Renderer::header_of(const PlannedDriver& driver, std::size_t index) 
         h.layers.push_back(scene_.plan.layers[layer].info);
     h.metadata["lightsieve/version"] = std::string(kVersion);
     h.metadata["lightsieve/samples_per_pixel"] = s.samples;
+    if (s.samples_max > s.samples) h.metadata["lightsieve/samples_per_pixel_max"] = s.samples_max;
     h.metadata["lightsieve/seed"] = static_cast<int>(s.seed);
     h.metadata["lightsieve/warnings"] = static_cast<int>(diagnostics_.n_warnings());
     h.metadata["lightsieve/errors"] = static_cast<int>(diagnostics_.n_errors());
@@ -170,13 +180,14 @@ RenderResult Renderer::run() {
                                                 layer.info.n_channels)});
     samples_total_ = static_cast<std::uint64_t>(result_.width) *
                      static_cast<std::uint64_t>(result_.height) *
-                     static_cast<std::uint64_t>(s.samples) * scene_.plan.passes.size();
+                     static_cast<std::uint64_t>(s.samples_max) * scene_.plan.passes.size();
     const std::vector<BucketRect> buckets = buckets_of(s);
+    noise_.assign(buckets.size(), std::vector<NoiseSum>(scene_.plan.layers.size()));
     start_ = Clock::now();
     parallel_for(buckets.size(), s.threads, [&](std::size_t i) {
         if (stopped()) return;
         Worker& mine = worker();
-        render_bucket(mine, buckets[i]);
+        render_bucket(mine, i, buckets[i]);
         const std::lock_guard lock(workers_mutex_);
         const auto at = std::find_if(workers_.begin(), workers_.end(),
                                      [&](const auto& w) { return w.get() == &mine; });
@@ -193,13 +204,15 @@ RenderResult Renderer::run() {
 
 /// Renders a bucket, or what there is time for: pixels are divided by the filter weight that they got, so a bucket that was
 /// stopped holds the right means of fewer samples, and zero where there are none.
-void Renderer::render_bucket(Worker& worker, const BucketRect& rect) {
+void Renderer::render_bucket(Worker& worker, std::size_t index, const BucketRect& rect) {
     worker.layers.resize(scene_.plan.layers.size());
     for (std::size_t p = 0; p < scene_.plan.passes.size(); ++p) {
         render_pass(worker, scene_.plan.passes[p], rect);
         for (std::size_t l = 0; l < scene_.plan.layers.size(); ++l)
-            if (scene_.plan.layers[l].pass == p)
+            if (scene_.plan.layers[l].pass == p) {
                 worker.film.resolve(scene_.plan.layers[l], worker.layers[l]);
+                measure_noise(worker, index, l);
+            }
     }
     deliver(worker, rect);
     report_progress(worker);
@@ -208,18 +221,28 @@ void Renderer::render_bucket(Worker& worker, const BucketRect& rect) {
 void Renderer::render_pass(Worker& worker, const Pass& pass, const BucketRect& rect) {
     const CameraSampler camera(scene_, pass);
     worker.film.begin(pass, rect.width, rect.height);
-    for (int first = 0, n = 0; first < scene_.settings.samples; first += n) {
-        n = std::min(kSamplesInOneGo, scene_.settings.samples - first);
+    const RenderSettings& s = scene_.settings;
+    const PlannedLayer* noisy =
+        scene_.plan.adaptive_layer ? &scene_.plan.layers[*scene_.plan.adaptive_layer] : nullptr;
+    if (noisy != nullptr && &scene_.plan.passes[noisy->pass] != &pass) noisy = nullptr;
+    SampleSchedule schedule(rect.width, rect.height, s.samples, s.samples_max,
+                            double{s.adaptive_threshold});
+    for (bool more = true; more;) {
         for (int y = 0; y < rect.height; ++y)
             for (int x = 0; x < rect.width; ++x)
-                if (!take_samples(worker, camera, rect, x, y, first, n)) return;
+                if (schedule.goes_on(x, y) && !take_samples(worker, camera, rect, x, y, schedule))
+                    return;
+        if (schedule.decides()) worker.film.estimate_noise(noisy, worker.noise);
+        more = schedule.next_round(worker.noise);
+        samples_total_ -= static_cast<std::uint64_t>(schedule.n_stopped()) *
+                          static_cast<std::uint64_t>(s.samples_max - schedule.done());
     }
 }
 
-/// Takes samples [first, first + n) of a pixel. False if the render was stopped.
+/// Takes the samples of a pixel for this round. False if the render was stopped.
 bool Renderer::take_samples(Worker& worker, const CameraSampler& camera, const BucketRect& rect,
-                            int x, int y, int first, int n) {
-    for (int i = first; i < first + n; ++i) {
+                            int x, int y, const SampleSchedule& schedule) {
+    for (int i = schedule.done(); i < schedule.target(); ++i) {
         if (stopped()) return false;
         const std::uint64_t dropped_before = worker.integrator.counts.dropped;
         const CameraSample sample =
@@ -232,7 +255,7 @@ bool Renderer::take_samples(Worker& worker, const CameraSampler& camera, const B
         remove_exposure(sample, worker.sample.probes);
         camera.weights(sample, worker.weights);
         worker.film.add(x, y, worker.sample, sample_clamp_factor(scene_, worker.sample.beauty),
-                        sample.offset, worker.weights);
+                        sample.offset, worker.weights, schedule.in_half(i));
         if (++worker.n_unreported == kSamplesAReport) report_progress(worker);
     }
     return true;
@@ -243,6 +266,35 @@ void Renderer::report_progress(Worker& worker) {
     if (!control_.progress) return;
     const std::lock_guard lock(progress_mutex_);
     control_.progress({samples_done_, samples_total_, seconds_since(start_)});
+}
+
+/// Notes how noisy a layer of light is in a bucket.
+void Renderer::measure_noise(Worker& worker, std::size_t bucket, std::size_t layer) {
+    const PlannedLayer& planned = scene_.plan.layers[layer];
+    if (!is_light(planned.source) || scene_.plan.views[planned.view].filter->closest()) return;
+    worker.film.estimate_noise(&planned, worker.noise);
+    NoiseSum& sum = noise_[bucket][layer];
+    for (const PixelNoise& p : worker.noise) {
+        if (!std::isfinite(p.variance)) continue;
+        sum.mean += p.mean;
+        sum.variance += p.variance;
+        ++sum.n;
+    }
+}
+
+void Renderer::report_noise() {
+    for (std::size_t l = 0; l < scene_.plan.layers.size(); ++l) {
+        NoiseSum all;
+        for (const std::vector<NoiseSum>& bucket : noise_) {
+            all.mean += bucket[l].mean;
+            all.variance += bucket[l].variance;
+            all.n += bucket[l].n;
+        }
+        if (all.n == 0) continue;
+        const auto n = static_cast<double>(all.n);
+        result_.noise.push_back(
+            {scene_.plan.layers[l].info.name, all.mean / n, std::sqrt(all.variance / n)});
+    }
 }
 
 void Renderer::note_dropped(Worker& worker, int x, int y, int index) {
@@ -319,6 +371,7 @@ void Renderer::report() {
         result_.dropped_samples += w->integrator.counts.dropped;
         dropped_closures += w->integrator.counts.dropped_closures;
     }
+    report_noise();
     if (result_.dropped_samples > 0) report_dropped();
     if (dropped_closures > 0)
         diagnostics_.warning(

@@ -102,6 +102,13 @@ struct FrameLayer {
         pixels;  ///< height * width * n_channels of the rendered region; UINT as bits of a float
 };
 
+/// How much noise is left in a layer of light.
+struct LayerNoise {
+    std::string name;
+    double mean = 0;   ///< luminance
+    double error = 0;  ///< standard error of a pixel's luminance, root mean square over the picture
+};
+
 struct RenderResult {
     bool stopped = false;               ///< ended early: the files have the samples taken so far
     double seconds = 0;                 ///< sampling time, without compile and file output
@@ -110,6 +117,7 @@ struct RenderResult {
     std::uint64_t rays = 0;             ///< closest-hit and shadow rays
     std::uint64_t dropped_samples = 0;  ///< contributions that were not finite
     std::vector<std::string> files;     ///< written
+    std::vector<LayerNoise> noise;      ///< layers of light, in order
     std::vector<FrameLayer> layers;     ///< if RenderOptions::capture
     int width = 0, height = 0;          ///< of the rendered region
 };

@@ -57,7 +57,9 @@ struct RenderSettings {
     Region region;  ///< inclusive, in pixels; may reach outside of the frame
     float pixel_aspect_ratio = 1;
     int bucket_size = 64;
-    int samples = 1;  ///< camera samples a pixel
+    int samples = 1;      ///< camera samples a pixel; with adaptive sampling the least
+    int samples_max = 1;  ///< the most: `samples` without adaptive sampling
+    float adaptive_threshold = 0.015F;  ///< noise at which a block of pixels stops
     std::uint32_t seed = 1;
     int threads = 0;
     DepthLimits depth;

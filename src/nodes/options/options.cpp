@@ -17,6 +17,7 @@ struct Options {
     std::int32_t AA_samples = 1, AA_samples_max = 20, AA_seed = 1;
     bool enable_adaptive_sampling = false;
     float AA_adaptive_threshold = 0.015F;
+    Name adaptive_aov;
     float AA_sample_clamp = 1e30F, indirect_sample_clamp = 10;
     bool AA_sample_clamp_affects_aovs = false;
     std::int32_t GI_diffuse_samples = 2, GI_specular_samples = 2, GI_transmission_samples = 2,
@@ -97,15 +98,20 @@ void describe_sampling(Describe<Options>& d) {
         .range(-10, 100);
     d.param("AA_samples_max", &Options::AA_samples_max,
             "Most samples a pixel with adaptive sampling, squared; acts with "
-            "enable_adaptive_sampling.")
-        .ignored();
+            "enable_adaptive_sampling and AA_samples of at least 2.")
+        .range(1, 100);
     d.param("AA_seed", &Options::AA_seed, "Seed of the sampling pattern.");
     d.param("enable_adaptive_sampling", &Options::enable_adaptive_sampling,
-            "More samples where the picture is noisy.")
-        .pending();
-    d.param("AA_adaptive_threshold", &Options::AA_adaptive_threshold,
-            "Noise at which adaptive sampling stops; acts with enable_adaptive_sampling.")
-        .ignored();
+            "More samples where the picture is noisy: between the squares of AA_samples and "
+            "AA_samples_max.");
+    d.param(
+         "AA_adaptive_threshold", &Options::AA_adaptive_threshold,
+         "Noise at which adaptive sampling stops: a pixel's standard error over the root of its "
+         "brightness, over blocks of 8 x 8 pixels.")
+        .range(0, kInfinity);
+    d.param("adaptive_aov", &Options::adaptive_aov,
+            "Ours: the output, such as caustics, whose noise asks for samples; empty: the "
+            "beauty.");
     d.param("AA_sample_clamp", &Options::AA_sample_clamp,
             "Largest channel of a camera sample; brighter ones are scaled down as a whole, in all "
             "AOVs.")
