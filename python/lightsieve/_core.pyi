@@ -504,6 +504,12 @@ class Outcome:
         """Closest-hit and shadow rays."""
 
     @property
+    def noise(self) -> list[tuple[str, float, float, float]]:
+        """
+        Of each layer of light its name, mean luminance, root mean square luminance, and the standard error of a pixel's luminance (root mean square), as halves of the samples tell.
+        """
+
+    @property
     def dropped_samples(self) -> int:
         """Contributions that were not finite."""
 

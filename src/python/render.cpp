@@ -264,14 +264,14 @@ void add_results(nb::module_& module) {
         .def_prop_ro(
             "noise",
             [](const Outcome& o) {
-                std::vector<std::tuple<std::string, double, double>> out;
+                std::vector<std::tuple<std::string, double, double, double>> out;
                 for (const LayerNoise& layer : o.result.noise)
-                    out.emplace_back(layer.name, layer.mean, layer.error);
+                    out.emplace_back(layer.name, layer.mean, layer.level, layer.error);
                 return out;
             },
-            "Of each layer of light its name, mean luminance, and the standard error of a pixel's "
-            "luminance (root mean "
-            "square over the picture), as halves of the samples tell.")
+            "Of each layer of light its name, mean luminance, root mean square luminance, and the "
+            "standard error of a pixel's luminance (root mean square), as halves of the samples "
+            "tell.")
         .def_prop_ro(
             "dropped_samples", [](const Outcome& o) { return o.result.dropped_samples; },
             "Contributions that were not finite.")

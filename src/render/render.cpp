@@ -105,7 +105,7 @@ class Renderer {
     std::atomic<std::uint64_t> samples_total_ = 0;  ///< at most
     /// Sums over the pixels of each bucket, by layer: added up in order when all are done.
     struct NoiseSum {
-        double mean = 0, variance = 0;
+        double mean = 0, square = 0, variance = 0;
         std::uint64_t n = 0;
     };
     std::vector<std::vector<NoiseSum>> noise_;
@@ -277,6 +277,7 @@ void Renderer::measure_noise(Worker& worker, std::size_t bucket, std::size_t lay
     for (const PixelNoise& p : worker.noise) {
         if (!std::isfinite(p.variance)) continue;
         sum.mean += p.mean;
+        sum.square += p.mean * p.mean;
         sum.variance += p.variance;
         ++sum.n;
     }
@@ -287,13 +288,14 @@ void Renderer::report_noise() {
         NoiseSum all;
         for (const std::vector<NoiseSum>& bucket : noise_) {
             all.mean += bucket[l].mean;
+            all.square += bucket[l].square;
             all.variance += bucket[l].variance;
             all.n += bucket[l].n;
         }
         if (all.n == 0) continue;
         const auto n = static_cast<double>(all.n);
-        result_.noise.push_back(
-            {scene_.plan.layers[l].info.name, all.mean / n, std::sqrt(all.variance / n)});
+        result_.noise.push_back({scene_.plan.layers[l].info.name, all.mean / n,
+                                 std::sqrt(all.square / n), std::sqrt(all.variance / n)});
     }
 }
 

@@ -106,7 +106,9 @@ struct FrameLayer {
 struct LayerNoise {
     std::string name;
     double mean = 0;   ///< luminance
-    double error = 0;  ///< standard error of a pixel's luminance, root mean square over the picture
+    double level = 0;  ///< luminance, root mean square over the picture
+    double error =
+        0;  ///< standard error of a pixel's luminance, root mean square over the picture
 };
 
 struct RenderResult {

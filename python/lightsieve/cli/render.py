@@ -31,7 +31,8 @@ JSON = {
     "seconds": "sampling, without reading the scene and writing files",
     "output_seconds": "writing files",
     "samples_per_second": "`samples` / `seconds`",
-    "noise": "by layer of light: its `mean` luminance, and the standard `error` of a pixel's",
+    "noise": "by layer of light: luminance as `mean` and root mean square (`level`), and the "
+    "standard `error` of a pixel's, root mean square",
 }
 
 
@@ -86,7 +87,10 @@ def _document(scene: Path, compiled: CompiledScene, outcome: Outcome | None) -> 
             "samples_per_second": outcome.samples / outcome.seconds
             if outcome.seconds > 0
             else 0.0,
-            "noise": {name: {"mean": mean, "error": error} for name, mean, error in outcome.noise},
+            "noise": {
+                name: {"mean": mean, "level": level, "error": error}
+                for name, mean, level, error in outcome.noise
+            },
         }
     return document
 
@@ -103,16 +107,14 @@ def _print_summary(compiled: CompiledScene, outcome: Outcome) -> None:
     if outcome.dropped_samples:
         typer.echo(f"{_output.plural(outcome.dropped_samples, 'sample')} dropped: not finite")
     if noisy := _noisiest(outcome):
-        typer.echo(f"noise left (standard error of a pixel): {noisy}")
+        typer.echo(f"noise left in a pixel, of the layer's level: {noisy}")
     typer.echo(_scene_options.count_text(compiled))
 
 
 def _noisiest(outcome: Outcome, n: int = 4) -> str:
     """The layers that are noisiest for how bright they are, worst first."""
-    shares = [(error / mean, name) for name, mean, error in outcome.noise if mean > 0]
-    return ", ".join(
-        f"{name} {share:.2g} of its mean" for share, name in sorted(shares)[: -n - 1 : -1]
-    )
+    shares = [(error / level, name) for name, _, level, error in outcome.noise if level > 0]
+    return ", ".join(f"{name} {share:.1%}" for share, name in sorted(shares)[: -n - 1 : -1])
 
 
 def _say_stopped(outcome: Outcome, cause: str) -> None:
