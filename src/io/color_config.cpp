@@ -4,6 +4,7 @@
 
 #include <array>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -129,6 +130,14 @@ OCIO::ConstColorSpaceRcPtr rendering_space(const OCIO::Config& config,
 
 std::shared_ptr<const ColorSpaces> read_color_config(const ColorConfigOptions& options,
                                                      Diagnostics& diagnostics) {
+    std::error_code ignored;
+    if (std::filesystem::exists(options.path, ignored) &&
+        !std::filesystem::is_regular_file(options.path, ignored)) {
+        diagnostics.warning(
+            Code::ColorConfig, "the colour configuration \"" + options.path + "\" is not a file",
+            options.where, "the built-in spaces are used: ACEScg, sRGB and their like");
+        return nullptr;
+    }
     try {
         // Not validated as a whole: a missing file of one space must not take the others away.
         const OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(options.path.c_str());

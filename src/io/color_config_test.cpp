@@ -112,6 +112,13 @@ TEST_F(ColorConfig, BadOnesAreTold) {
     EXPECT_EQ(report().severity, Severity::Warning);
 }
 
+TEST_F(ColorConfig, FoldersAndPipesAreTold) {
+    ColorConfigOptions folder;
+    folder.path = testing::TempDir();
+    EXPECT_EQ(read(folder), nullptr);
+    EXPECT_NE(report().message.find("is not a file"), std::string::npos);
+}
+
 TEST_F(ColorConfig, DamagedOnesAreTold) {
     std::ofstream(path_) << "ocio_profile_version: 1\ncolorspaces: [";
     EXPECT_EQ(read(), nullptr);

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <span>
 
 #include "core/error.h"
@@ -225,7 +224,9 @@ Photometry read_photometry(const std::string& path) {
                  std::to_string(kMaxPhotometryBytes) + " bytes",
              "IES files are small texts; check the name");
     std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    // Not by iterators of the stream's buffer: they throw where a file cannot be read.
+    std::string text(size, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
     if (!file) fail(Code::FileUnreadable, "cannot read \"" + path + "\"", "check its permissions");
     return parse_photometry(text, path);
 }

@@ -151,6 +151,8 @@ TEST_F(PhotometryFiles, ReadAndRefused) {
     EXPECT_EQ(code(in_folder("missing.ies")), Code::FileNotFound);
     std::ofstream(in_folder("large.ies")) << std::string(kMaxPhotometryBytes + 1, ' ');
     EXPECT_EQ(code(in_folder("large.ies")), Code::LimitFileSize);
+    // A file of no size whose bytes cannot be read.
+    EXPECT_EQ(code("/proc/self/mem"), Code::FileFormat);
 }
 
 }  // namespace

@@ -406,6 +406,14 @@ class Boxes {
     std::size_t n_ = 0;
 };
 
+/// Rays beyond kRayReach, or of something that is no number, meet nothing.
+bool can_be_traced(const Ray& ray) {
+    const Vec3f o = ray.origin, d = ray.direction;
+    return std::abs(o.x) <= kRayReach && std::abs(o.y) <= kRayReach &&
+           std::abs(o.z) <= kRayReach && std::abs(d.x) <= kRayReach &&
+           std::abs(d.y) <= kRayReach && std::abs(d.z) <= kRayReach && ray.t_min <= ray.t_max;
+}
+
 RTCRay to_embree(const Ray& ray, std::uint32_t mask) {
     RTCRay out;
     out.org_x = ray.origin.x;
@@ -542,6 +550,7 @@ Accel::Accel(std::span<const AccelObject> objects, const std::string& isa, bool 
 Accel::~Accel() = default;
 
 bool Accel::intersect(const Ray& ray, std::uint32_t mask, RayHit& hit) const noexcept {
+    if (!can_be_traced(ray)) return false;
     if (state_->boxes && !state_->boxes->may_meet(ray)) return false;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -558,6 +567,7 @@ bool Accel::intersect(const Ray& ray, std::uint32_t mask, RayHit& hit) const noe
 }
 
 bool Accel::occluded(const Ray& ray, std::uint32_t mask) const noexcept {
+    if (!can_be_traced(ray)) return false;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay r = to_embree(ray, mask);

@@ -17,11 +17,16 @@
 
 namespace lightsieve {
 
+/// How far from the origin rays may begin, and how much the inverse of a placement may magnify or move. Embree ends the program
+/// at rays beyond 1.8e18, also within a placement: kRayReach * kMaxMagnification * 3 + kMaxUndoneShift is less.
+inline constexpr float kRayReach = 1e10F, kMaxMagnification = 1e7F, kMaxUndoneShift = 1e17F;
+
 /// One placed geometry.
 struct AccelObject {
-    const ShapeGeometry* geometry = nullptr;   ///< keys over the shutter; must outlive the Accel
-    std::span<const Mat4f> world_from_object;  ///< at least one; keys over the shutter
-    std::uint32_t mask = 0;                    ///< rays with a common bit see it
+    const ShapeGeometry* geometry = nullptr;  ///< keys over the shutter; must outlive the Accel
+    std::span<const Mat4f>
+        world_from_object;   ///< at least one; keys over the shutter; within kMaxMagnification
+    std::uint32_t mask = 0;  ///< rays with a common bit see it
 };
 
 class Accel {

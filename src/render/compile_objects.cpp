@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "render/accel.h"
 #include "render/compiler.h"
 #include "render/shade_services.h"
 
@@ -15,6 +17,16 @@ std::uint32_t hash_name(std::string_view name) {
     for (const char c : name)
         h = (h ^ static_cast<unsigned char>(c)) * 16777619U;
     return h;
+}
+
+/// Whether rays survive the way into object space.
+bool can_be_undone(const Mat4f& object_from_world) {
+    const auto& m = object_from_world.m;
+    for (std::size_t row = 0; row < 4; ++row)
+        for (std::size_t column = 0; column < 3; ++column)
+            if (!(std::abs(m[row][column]) <= (row < 3 ? kMaxMagnification : kMaxUndoneShift)))
+                return false;
+    return true;
 }
 
 }  // namespace
@@ -55,12 +67,12 @@ bool Compiler::set_placement(const ShapeLeaf& leaf, SceneObject& object) {
     for (std::size_t i = 0; i < n; ++i) {
         bool invertible = false;
         inverse[i] = leaf.placement[i].inverse(&invertible);
-        if (invertible && leaf.placement[i].finite()) continue;
-        diagnostics_.warning(
-            Code::ShapeBad,
-            fmt::format("the matrix of \"{}\" flattens it or is not finite; the shape is left out",
-                        leaf.outermost->name().view()),
-            leaf.outermost->where("matrix"));
+        if (invertible && leaf.placement[i].finite() && can_be_undone(inverse[i])) continue;
+        diagnostics_.warning(Code::ShapeBad,
+                             fmt::format("the matrix of \"{}\" flattens it, shrinks it to nothing "
+                                         "or is not finite; the shape is left out",
+                                         leaf.outermost->name().view()),
+                             leaf.outermost->where("matrix"));
         return false;
     }
     const std::span<Mat4f> place = scene_->matrices.allocate_array<Mat4f>(n);

@@ -321,6 +321,9 @@ Document read_ass_file(const std::string& path, Diagnostics& diagnostics) {
     if (!text) return {};
     const ReadFile read_file = [](const std::string& included) -> std::optional<std::string> {
         Diagnostics reported_by_the_reader;
+        // A scene may come through a pipe; what it includes may not keep us waiting for ever.
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(included, ignored)) return std::nullopt;
         return read_text_file(included, reported_by_the_reader);
     };
     return read_ass(std::move(*text), path, read_file, diagnostics);

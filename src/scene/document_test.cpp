@@ -2,6 +2,7 @@
 #include "scene/document.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include <cstdio>
@@ -216,6 +217,18 @@ TEST(Include, Errors) {
             .errors,
         "2:2 include-cycle\n");
     EXPECT_EQ(read("include \"b.ass").errors, "1:9 ass-unclosed\n");
+}
+
+TEST(Include, PipesAreNotWaitedFor) {
+    const std::string folder = testing::TempDir() + "lightsieve_include";
+    std::filesystem::create_directories(folder);
+    ASSERT_EQ(::mkfifo((folder + "/pipe").c_str(), 0600), 0);
+    std::ofstream(folder + "/scene.ass") << "include \"pipe\"\nm { name a }\n";
+    Diagnostics diagnostics;
+    const Document document = read_ass_file(folder + "/scene.ass", diagnostics);
+    EXPECT_EQ(diagnostics.items().at(0).code, Code::FileNotFound);
+    EXPECT_EQ(document.nodes().size(), 1U);
+    std::filesystem::remove_all(folder);
 }
 
 TEST(Include, DoublingFilesEnd) {

@@ -89,6 +89,8 @@ int run(const Command& command, Diagnostics& diagnostics) {
     const SceneSummary summary = summarize(*scene);
     std::printf("%zu shapes, %zu lights, %zu layers\n", summary.n_shapes, summary.n_lights,
                 summary.layers.size());
+    // Whoever ends this run for taking too long wants to know whether it had begun.
+    std::fflush(stdout);
     if (command.render) {
         const RenderResult result = render_scene(*scene, {}, diagnostics);
         std::printf("%llu samples in %.2f s\n", static_cast<unsigned long long>(result.samples),

@@ -176,7 +176,7 @@ void describe_frame(Describe<Options>& d) {
     d.param("yres", &Options::yres, "Height of the frame.").unit("pixels").hard_range(1, 1 << 20);
     d.param("pixel_aspect_ratio", &Options::pixel_aspect_ratio,
             "Width of a pixel over its height.")
-        .range(0.01F, 100);
+        .hard_range(0.01F, 100);
     d.param("region_min_x", &Options::region_min_x,
             "First column that is rendered; may lie outside the frame. Unset: 0.")
         .unit("pixels");
