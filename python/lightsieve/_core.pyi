@@ -335,6 +335,38 @@ class RenderOptions:
     def roulette_depth(self, arg: int, /) -> None: ...
 
     @property
+    def checkpoints(self) -> bool:
+        """
+        Keep what is done beside the first file when the render ends before time.
+        """
+
+    @checkpoints.setter
+    def checkpoints(self, arg: bool, /) -> None: ...
+
+    @property
+    def checkpoint_minutes(self) -> float:
+        """
+        Between two writes of what is done; 0: only when the render ends before time.
+        """
+
+    @checkpoint_minutes.setter
+    def checkpoint_minutes(self, arg: float, /) -> None: ...
+
+    @property
+    def resume(self) -> bool:
+        """Go on from there."""
+
+    @resume.setter
+    def resume(self, arg: bool, /) -> None: ...
+
+    @property
+    def keep_checkpoint(self) -> bool:
+        """Keep it also when the render is done."""
+
+    @keep_checkpoint.setter
+    def keep_checkpoint(self, arg: bool, /) -> None: ...
+
+    @property
     def capture(self) -> bool:
         """Keep the layers in memory."""
 
@@ -498,6 +530,14 @@ class Outcome:
     @property
     def samples(self) -> int:
         """Camera samples taken."""
+
+    @property
+    def resumed_samples(self) -> int:
+        """Camera samples that a checkpoint had, not in `samples`."""
+
+    @property
+    def checkpoint(self) -> str:
+        """File from which a later render can go on; empty if there is none."""
 
     @property
     def rays(self) -> int:

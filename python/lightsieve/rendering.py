@@ -46,6 +46,13 @@ class Settings(TypedDict, total=False):
     """`reference` or `arnold7`: which reading of the built-in AOVs."""
     rendering_space: str
     """Colour space that light is computed in, by name; empty: as the scene says, or ACEScg."""
+    checkpoint: float | None
+    """Minutes between two writes of what is done to FILE.checkpoint beside the first file; 0: only
+    when the render ends before time; None: never."""
+    resume: bool
+    """Go on from the checkpoint, if there is one."""
+    keep_checkpoint: bool
+    """Keep it also when the render is done, to go on with more samples."""
     isa: str
     """`sse2`, `avx2` or `avx512`: pins the ray kernels, for equal bits on unlike machines."""
 
@@ -108,6 +115,11 @@ def compile_scene(
     options.lpe_table = settings.get("lpe_table", "")
     options.rendering_space = settings.get("rendering_space", "")
     options.isa = settings.get("isa", "")
+    minutes = settings.get("checkpoint")
+    options.checkpoints = minutes is not None
+    options.checkpoint_minutes = minutes or 0.0
+    options.resume = settings.get("resume", False)
+    options.keep_checkpoint = settings.get("keep_checkpoint", False)
     if "region" in settings:
         options.set_region(*settings["region"])
     changes = [f"{key}={_as_written(value)}" for key, value in settings.get("set", {}).items()]

@@ -194,6 +194,13 @@ void add_options(nb::module_& module) {
                 "Empty, `sse2`, `avx2` or `avx512`: pins the ray kernels.")
         .def_rw("roulette_depth", &RenderOptions::roulette_depth,
                 "Scatterings before Russian roulette may end a path; negative: never.")
+        .def_rw("checkpoints", &RenderOptions::checkpoints,
+                "Keep what is done beside the first file when the render ends before time.")
+        .def_rw("checkpoint_minutes", &RenderOptions::checkpoint_minutes,
+                "Between two writes of what is done; 0: only when the render ends before time.")
+        .def_rw("resume", &RenderOptions::resume, "Go on from there.")
+        .def_rw("keep_checkpoint", &RenderOptions::keep_checkpoint,
+                "Keep it also when the render is done.")
         .def_rw("capture", &RenderOptions::capture, "Keep the layers in memory.")
         .def_rw("write_files", &RenderOptions::write_files, "Hand the pixels to the drivers.")
         .def(
@@ -259,6 +266,12 @@ void add_results(nb::module_& module) {
             "Spent in drivers.")
         .def_prop_ro(
             "samples", [](const Outcome& o) { return o.result.samples; }, "Camera samples taken.")
+        .def_prop_ro(
+            "resumed_samples", [](const Outcome& o) { return o.result.resumed_samples; },
+            "Camera samples that a checkpoint had, not in `samples`.")
+        .def_prop_ro(
+            "checkpoint", [](const Outcome& o) { return o.result.checkpoint; },
+            "File from which a later render can go on; empty if there is none.")
         .def_prop_ro(
             "rays", [](const Outcome& o) { return o.result.rays; }, "Closest-hit and shadow rays.")
         .def_prop_ro(

@@ -43,14 +43,30 @@ int SampleSchedule::next_target() const {
         {most_, (wanted + pair - 1) / pair * pair, done_ + std::max(kSamplesInOneGo, pair)});
 }
 
-bool SampleSchedule::next_round(std::span<const PixelNoise> noise) {
+bool SampleSchedule::finished() const {
+    return done_ >= most_ ||
+           std::ranges::all_of(goes_on_, [](std::uint8_t goes_on) { return goes_on == 0; });
+}
+
+void SampleSchedule::save(ByteWriter& out) const {
+    out.put(done_);
+    out.put(goes_on_);
+}
+
+bool SampleSchedule::load(ByteReader& in) {
+    if (!in.get(done_) || !in.get(goes_on_, goes_on_.size()) || done_ < 0 || done_ > most_)
+        return false;
+    target_ = next_target();
+    return true;
+}
+
+void SampleSchedule::next_round(std::span<const PixelNoise> noise) {
     const bool decide = decides();
     done_ = target_;
     n_stopped_ = 0;
-    if (done_ >= most_) return false;
+    if (done_ >= most_) return;
     target_ = next_target();
-    if (!decide) return true;
-    bool any = false;
+    if (!decide) return;
     std::vector<PixelNoise> block;
     for (int y = 0; y < height_; y += kAdaptiveBlock)
         for (int x = 0; x < width_; x += kAdaptiveBlock) {
@@ -65,11 +81,8 @@ bool SampleSchedule::next_round(std::span<const PixelNoise> noise) {
             if (block_noise(block) < threshold_) {
                 goes_on = 0;
                 n_stopped_ += static_cast<int>(block.size());
-            } else {
-                any = true;
             }
         }
-    return any;
 }
 
 }  // namespace lightsieve

@@ -40,12 +40,18 @@ class SampleSchedule {
     [[nodiscard]] int target() const { return target_; }
     /// Whether the block with this pixel goes on.
     [[nodiscard]] bool goes_on(int x, int y) const { return goes_on_[block_of(x, y)] != 0; }
-    /// The round is over: chooses the next one. False if there is none.
+    /// The round is over: chooses the next one.
     ///
     /// noise  of all pixels of the bucket, row by row; not looked at before the least samples are taken
-    bool next_round(std::span<const PixelNoise> noise);
+    void next_round(std::span<const PixelNoise> noise);
     /// Whether next_round will look at the noise.
     [[nodiscard]] bool decides() const { return target_ >= least_ && target_ < most_; }
+    /// No block goes on.
+    [[nodiscard]] bool finished() const;
+    /// Where it is, to go on later.
+    void save(ByteWriter& out) const;
+    /// What `save` wrote for a bucket of the same size, with as many samples as here or fewer. False if it does not fit.
+    [[nodiscard]] bool load(ByteReader& in);
     /// Pixels that stopped at the end of the last round.
     [[nodiscard]] int n_stopped() const { return n_stopped_; }
 

@@ -27,7 +27,7 @@ std::vector<int> rounds(int least, int most) {
     SampleSchedule schedule(8, 8, least, most, 0.01);
     std::vector<int> out{schedule.target()};
     const std::vector<PixelNoise> noisy(64, {1, 1});
-    while (schedule.next_round(noisy))
+    for (schedule.next_round(noisy); !schedule.finished(); schedule.next_round(noisy))
         out.push_back(schedule.target());
     return out;
 }
@@ -55,12 +55,14 @@ TEST(SampleSchedule, BlocksStopByThemselves) {
     SampleSchedule schedule(11, 8, 4, 100, 0.01);
     std::vector<PixelNoise> noise(11 * 8, {1, 0});
     noise[3 * 11 + 9].variance = 1;
-    ASSERT_TRUE(schedule.next_round(noise));
+    schedule.next_round(noise);
+    ASSERT_FALSE(schedule.finished());
     EXPECT_EQ(schedule.n_stopped(), 64);
     EXPECT_FALSE(schedule.goes_on(7, 7));
     EXPECT_TRUE(schedule.goes_on(8, 0));
     noise[3 * 11 + 9].variance = 0;
-    EXPECT_FALSE(schedule.next_round(noise));
+    schedule.next_round(noise);
+    EXPECT_TRUE(schedule.finished());
     EXPECT_EQ(schedule.n_stopped(), 24);
 }
 

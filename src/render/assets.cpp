@@ -83,6 +83,12 @@ void AssetFinder::add_search_path(std::string_view folders) {
 }
 
 std::optional<std::string> AssetFinder::find(std::string_view name) const {
+    std::optional<std::string> file = look_for(name);
+    if (file) found_.insert(*file);
+    return file;
+}
+
+std::optional<std::string> AssetFinder::look_for(std::string_view name) const {
     const std::filesystem::path path(expand_variables(name));
     if (path.empty()) return std::nullopt;
     if (path.is_absolute()) return is_file(path) ? std::optional(path.string()) : std::nullopt;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +21,13 @@ class AssetFinder {
     void add_folder(std::string folder) { folders_.push_back(std::move(folder)); }
     /// The first existing file: the name itself if absolute, else in each folder, else relative to the working folder.
     [[nodiscard]] std::optional<std::string> find(std::string_view name) const;
+    /// All that were found, sorted.
+    [[nodiscard]] const std::set<std::string>& found() const { return found_; }
 
   private:
+    [[nodiscard]] std::optional<std::string> look_for(std::string_view name) const;
     std::vector<std::string> folders_;
+    mutable std::set<std::string> found_;
 };
 
 }  // namespace lightsieve

@@ -103,6 +103,7 @@ ScenePtr Compiler::run() {
         return nullptr;
     }
     summarize_scene();
+    identify();
     return std::move(scene_);
 }
 
@@ -166,6 +167,8 @@ void Compiler::read_settings() {
     const std::int64_t squared = std::int64_t{std::max(aa, 1)} * std::max(aa, 1);
     s.samples = options_.spp > 0 ? options_.spp
                                  : static_cast<int>(std::min<std::int64_t>(squared, kMaxSamples));
+    const int aa_of_scene = std::clamp(option<std::int32_t>("AA_samples", 1), 1, 100);
+    s.footprint_samples = aa_of_scene * aa_of_scene;
     read_adaptive();
     s.seed = options_.seed ? *options_.seed
                            : static_cast<std::uint32_t>(option<std::int32_t>("AA_seed", 1));

@@ -65,6 +65,8 @@ class Compiler {
     void make_cameras();
     void finish_depth_rules();
     void summarize_scene();
+    /// What a checkpoint must agree with, and where it lies (compile_identity.cpp).
+    void identify();
     [[nodiscard]] bool has_caustics() const;
     template <class T>
     [[nodiscard]] T option(Name param, T fallback) const {

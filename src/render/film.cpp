@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 
@@ -69,13 +70,13 @@ void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offs
     for (std::size_t i = 0; i < views_.size(); ++i) {
         ViewSums& sums = views_[i];
         const double weight = double{weights[i]};
+        ++sums.count[pixel];
         if (sums.closest) {
             add_if_nearest(sums, pixel, sample, double{scale}, offset);
             continue;
         }
         sums.weight[pixel] += weight;
         if (in_half) sums.half_weight[pixel] += weight;
-        ++sums.count[pixel];
         sums.alpha[pixel] += double{sample.alpha} * weight;
         add_light(sums, pixel, sample, {double{scale}, weight, in_half});
         add_written(sums, pixel, sample, weight);
@@ -184,6 +185,39 @@ void Film::resolve(const PlannedLayer& layer, std::vector<float>& out) const {
     const ViewSums& sums = sums_of(layer.view);
     if (is_light(layer.source)) return resolve_light(sums, layer, out);
     resolve_data(sums, layer, out);
+}
+
+void Film::save(ByteWriter& out) const {
+    for (const ViewSums& sums : views_) {
+        ViewSums::for_each_sum(sums, [&](const auto& values) { out.put(values); });
+        out.put(sums.slot_of);
+        for (std::size_t i = 0; i < sums.n_slots; ++i)
+            out.put(sums.slots[i]);
+    }
+}
+
+bool Film::load(ByteReader& in) {
+    for (ViewSums& sums : views_) {
+        bool good = true;
+        ViewSums::for_each_sum(
+            sums, [&](auto& values) { good = good && in.get(values, values.size()); });
+        std::vector<std::int32_t> slot_of;
+        if (!good || !in.get(slot_of, sums.slot_of.size())) return false;
+        // Slots are numbered as they were made.
+        std::vector<std::uint32_t> keys(slot_of.size());
+        for (std::uint32_t key = 0; key < slot_of.size(); ++key) {
+            if (slot_of[key] < 0) continue;
+            if (static_cast<std::size_t>(slot_of[key]) >= slot_of.size()) return false;
+            keys[static_cast<std::size_t>(slot_of[key])] = key;
+            ++sums.n_slots;
+        }
+        const std::size_t n_slots = std::exchange(sums.n_slots, 0);
+        for (std::size_t i = 0; i < n_slots; ++i) {
+            std::vector<LightSum>& values = slot(sums, keys[i]);
+            if (sums.n_slots != i + 1 || !in.get(values, values.size())) return false;
+        }
+    }
+    return true;
 }
 
 std::vector<const std::vector<Film::LightSum>*> Film::parts_of(const ViewSums& sums,

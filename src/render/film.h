@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/bytes.h"
 #include "core/vec.h"
 #include "lpe/program.h"
 #include "render/aov_plan.h"
@@ -87,6 +88,15 @@ class Film {
     /// Values of a layer for the whole bucket: height * width * n_channels floats, row by row.
     void resolve(const PlannedLayer& layer, std::vector<float>& out) const;
 
+    /// Samples that a pixel of the bucket has.
+    [[nodiscard]] int count(int x, int y) const {
+        return static_cast<int>(views_.front().count[static_cast<std::size_t>(y * width_ + x)]);
+    }
+    /// All sums, to go on later.
+    void save(ByteWriter& out) const;
+    /// Sums that `save` wrote, after `begin` of the same pass and size. False if they do not fit: then begin anew.
+    [[nodiscard]] bool load(ByteReader& in);
+
     /// Noise of all pixels of the bucket, row by row: of a layer of light, or of the beauty through the pass's first filter.
     ///
     /// layer  null: the beauty
@@ -120,6 +130,26 @@ class Film {
         std::vector<FirstHit> nearest;
         std::vector<float> nearest_rank;  ///< the smaller the nearer
         bool closest = false;
+
+        /// All sums a pixel but the slots', for whoever saves them: a new one must be added here.
+        template <class Sums, class Each>
+        static void for_each_sum(Sums& sums, const Each& each) {
+            each(sums.beauty);
+            each(sums.alpha);
+            each(sums.weight);
+            each(sums.half_weight);
+            each(sums.count);
+            each(sums.data);
+            each(sums.opacity);
+            each(sums.volume_opacity);
+            each(sums.shadow);
+            each(sums.shadow_difference);
+            each(sums.shadow_mask);
+            each(sums.nearest);
+            each(sums.nearest_rank);
+            for (auto& written : sums.written)
+                each(written);
+        }
     };
     std::vector<LightSum>& slot(ViewSums& sums, std::uint32_t key);
     /// What becomes of a sample's light: factors of clamping and of the filter, and whether it is in the half.

@@ -144,7 +144,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
     path_.last.next_segment = path_.segment + 1;
     path_.fans_out &= delta;
     path_.footprint.width += path_.footprint.spread * surface.t;
-    if (!delta) widen(path_.footprint, pdf, scene_.settings.samples);
+    if (!delta) widen(path_.footprint, pdf, scene_.settings.footprint_samples);
     ray = {start_of_ray(surface, sample.wi), sample.wi, 0, kInfinity, surface.at.time};
     return true;
 }
@@ -249,7 +249,7 @@ bool Integrator<Tracker>::scatter_below(const Surface& surface, std::size_t draw
     path_.last.next_segment = path_.segment + 1;
     path_.fans_out = false;
     path_.footprint.width += path_.footprint.spread * surface.t;
-    widen(path_.footprint, path_.last.pdf, scene_.settings.samples);
+    widen(path_.footprint, path_.last.pdf, scene_.settings.footprint_samples);
     ray = {offset_ray_origin(at.at.position, exit->outside), wi, 0, kInfinity, at.at.time};
     return true;
 }

@@ -60,6 +60,7 @@ struct Worker {
     std::vector<PixelNoise> noise;           ///< of the bucket
     std::vector<DroppedSample> dropped;      ///< the first few
     std::uint64_t n_unreported = 0;          ///< samples since the last report of progress
+    Checkpoint::Clock::time_point saved;     ///< when the bucket's state was last saved, or begun
 };
 
 class Renderer {
@@ -70,7 +71,8 @@ class Renderer {
           control_(control),
           diagnostics_(diagnostics),
           capture_(capture),
-          write_files_(write_files) {}
+          write_files_(write_files),
+          checkpoint_(scene.settings.checkpoint, scene.identity, scene.settings.samples_max) {}
 
     RenderResult run();
 
@@ -78,7 +80,12 @@ class Renderer {
     [[nodiscard]] ImageHeader header_of(const PlannedDriver& driver, std::size_t index) const;
     void open_drivers();
     void render_bucket(Worker& worker, std::size_t index, const BucketRect& rect);
-    void render_pass(Worker& worker, const Pass& pass, const BucketRect& rect);
+    void render_pass(Worker& worker, std::size_t bucket, std::size_t pass, const BucketRect& rect);
+    /// The bucket's state of an earlier render, if there is one.
+    void resume(Worker& worker, std::size_t bucket, std::size_t pass, const BucketRect& rect,
+                SampleSchedule& schedule);
+    void save(Worker& worker, std::size_t bucket, std::size_t pass,
+              const SampleSchedule& schedule);
     bool take_samples(Worker& worker, const CameraSampler& camera, const BucketRect& rect, int x,
                       int y, const SampleSchedule& schedule);
     void measure_noise(Worker& worker, std::size_t bucket, std::size_t layer);
@@ -87,6 +94,7 @@ class Renderer {
     static void note_dropped(Worker& worker, int x, int y, int index);
     void deliver(const Worker& worker, const BucketRect& rect);
     void close_drivers();
+    void close_checkpoint();
     void report();
     void report_dropped();
     [[nodiscard]] bool stopped() const {
@@ -99,7 +107,9 @@ class Renderer {
     Diagnostics& diagnostics_;
     bool capture_, write_files_;
     RenderResult result_;
+    Checkpoint checkpoint_;
     std::mutex output_mutex_, progress_mutex_, workers_mutex_;
+    std::atomic<std::uint64_t> samples_resumed_ = 0;
     std::atomic<std::uint64_t> samples_done_ = 0;
     std::vector<std::unique_ptr<Worker>> workers_, idle_;
     std::atomic<std::uint64_t> samples_total_ = 0;  ///< at most
@@ -198,6 +208,7 @@ RenderResult Renderer::run() {
     result_.samples = samples_done_;
     result_.seconds = seconds_since(start_) - result_.output_seconds;
     close_drivers();
+    close_checkpoint();
     report();
     return std::move(result_);
 }
@@ -207,7 +218,7 @@ RenderResult Renderer::run() {
 void Renderer::render_bucket(Worker& worker, std::size_t index, const BucketRect& rect) {
     worker.layers.resize(scene_.plan.layers.size());
     for (std::size_t p = 0; p < scene_.plan.passes.size(); ++p) {
-        render_pass(worker, scene_.plan.passes[p], rect);
+        render_pass(worker, index, p, rect);
         for (std::size_t l = 0; l < scene_.plan.layers.size(); ++l)
             if (scene_.plan.layers[l].pass == p) {
                 worker.film.resolve(scene_.plan.layers[l], worker.layers[l]);
@@ -218,7 +229,46 @@ void Renderer::render_bucket(Worker& worker, std::size_t index, const BucketRect
     report_progress(worker);
 }
 
-void Renderer::render_pass(Worker& worker, const Pass& pass, const BucketRect& rect) {
+void Renderer::resume(Worker& worker, std::size_t bucket, std::size_t pass, const BucketRect& rect,
+                      SampleSchedule& schedule) {
+    const std::optional<std::vector<std::byte>> state =
+        checkpoint_.load(static_cast<std::uint32_t>(bucket), static_cast<std::uint32_t>(pass));
+    if (!state) return;
+    const SampleSchedule fresh = schedule;
+    ByteReader in(*state);
+    std::uint64_t n = 0, not_taken = 0;
+    bool fits = schedule.load(in) && worker.film.load(in) && in.done();
+    for (int y = 0; fits && y < rect.height; ++y)
+        for (int x = 0; fits && x < rect.width; ++x) {
+            fits = worker.film.count(x, y) <= scene_.settings.samples_max;
+            n += static_cast<std::uint64_t>(worker.film.count(x, y));
+            if (!schedule.goes_on(x, y))
+                not_taken += static_cast<std::uint64_t>(scene_.settings.samples_max -
+                                                        worker.film.count(x, y));
+        }
+    if (!fits) {
+        worker.film.begin(scene_.plan.passes[pass], rect.width, rect.height);
+        schedule = fresh;
+        return;
+    }
+    samples_resumed_ += n;
+    samples_total_ -= n + not_taken;
+}
+
+void Renderer::save(Worker& worker, std::size_t bucket, std::size_t pass,
+                    const SampleSchedule& schedule) {
+    if (!checkpoint_.active()) return;
+    ByteWriter out;
+    schedule.save(out);
+    worker.film.save(out);
+    checkpoint_.save(static_cast<std::uint32_t>(bucket), static_cast<std::uint32_t>(pass),
+                     out.take());
+    worker.saved = Checkpoint::Clock::now();
+}
+
+void Renderer::render_pass(Worker& worker, std::size_t bucket, std::size_t index,
+                           const BucketRect& rect) {
+    const Pass& pass = scene_.plan.passes[index];
     const CameraSampler camera(scene_, pass);
     worker.film.begin(pass, rect.width, rect.height);
     const RenderSettings& s = scene_.settings;
@@ -227,22 +277,28 @@ void Renderer::render_pass(Worker& worker, const Pass& pass, const BucketRect& r
     if (noisy != nullptr && &scene_.plan.passes[noisy->pass] != &pass) noisy = nullptr;
     SampleSchedule schedule(rect.width, rect.height, s.samples, s.samples_max,
                             double{s.adaptive_threshold});
-    for (bool more = true; more;) {
+    resume(worker, bucket, index, rect, schedule);
+    worker.saved = Checkpoint::Clock::now();
+    while (!schedule.finished()) {
         for (int y = 0; y < rect.height; ++y)
             for (int x = 0; x < rect.width; ++x)
                 if (schedule.goes_on(x, y) && !take_samples(worker, camera, rect, x, y, schedule))
-                    return;
+                    return save(worker, bucket, index, schedule);
         if (schedule.decides()) worker.film.estimate_noise(noisy, worker.noise);
-        more = schedule.next_round(worker.noise);
+        schedule.next_round(worker.noise);
         samples_total_ -= static_cast<std::uint64_t>(schedule.n_stopped()) *
                           static_cast<std::uint64_t>(s.samples_max - schedule.done());
+        if (!schedule.finished() && checkpoint_.due(worker.saved))
+            save(worker, bucket, index, schedule);
     }
+    save(worker, bucket, index, schedule);
 }
 
 /// Takes the samples of a pixel for this round. False if the render was stopped.
 bool Renderer::take_samples(Worker& worker, const CameraSampler& camera, const BucketRect& rect,
                             int x, int y, const SampleSchedule& schedule) {
-    for (int i = schedule.done(); i < schedule.target(); ++i) {
+    // A resumed pixel may be ahead of its bucket.
+    for (int i = std::max(schedule.done(), worker.film.count(x, y)); i < schedule.target(); ++i) {
         if (stopped()) return false;
         const std::uint64_t dropped_before = worker.integrator.counts.dropped;
         const CameraSample sample =
@@ -339,6 +395,21 @@ void Renderer::close_drivers() {
     for (const PlannedDriver& planned : scene_.plan.drivers)
         if (planned.driver->close(diagnostics_)) result_.files.push_back(planned.driver->path());
     result_.output_seconds += seconds_since(start);
+}
+
+void Renderer::close_checkpoint() {
+    result_.resumed_samples = samples_resumed_;
+    if (result_.stopped) {
+        checkpoint_.flush();
+    } else {
+        checkpoint_.finish();
+    }
+    const CheckpointSettings& settings = scene_.settings.checkpoint;
+    if (!checkpoint_.problem().empty())
+        diagnostics_.warning(Code::FileUnwritable, checkpoint_.problem(), {},
+                             "what it had before is still good for --resume");
+    else if (checkpoint_.active() && (result_.stopped || settings.keep))
+        result_.checkpoint = settings.path;
 }
 
 void Renderer::report_dropped() {

@@ -51,6 +51,11 @@ struct RenderOptions {
         4;  ///< scattering events before Russian roulette may end a path; negative: never
     bool capture = false;     ///< keep the layers in memory (RenderResult::layers)
     bool write_files = true;  ///< hand buckets to the drivers
+    double checkpoint_minutes =
+        0;  ///< between two writes of what is done; 0: none but at an end before time
+    bool checkpoints = false;  ///< keep what is done beside the first file when ended before time
+    bool resume = false;       ///< go on from there
+    bool keep_checkpoint = false;  ///< also when the render is done
 };
 
 /// What `lightsieve check` tells of a scene.
@@ -116,6 +121,8 @@ struct RenderResult {
     double seconds = 0;                 ///< sampling time, without compile and file output
     double output_seconds = 0;          ///< spent in drivers
     std::uint64_t samples = 0;          ///< camera samples taken
+    std::uint64_t resumed_samples = 0;  ///< that a checkpoint had, not in `samples`
+    std::string checkpoint;             ///< file from which a later render can go on; empty: none
     std::uint64_t rays = 0;             ///< closest-hit and shadow rays
     std::uint64_t dropped_samples = 0;  ///< contributions that were not finite
     std::vector<std::string> files;     ///< written

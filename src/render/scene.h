@@ -14,6 +14,7 @@
 #include "lpe/program.h"
 #include "render/accel.h"
 #include "render/aov_plan.h"
+#include "render/checkpoint.h"
 #include "render/gi_kind.h"
 #include "render/light_sampler.h"
 #include "render/path_terms.h"
@@ -53,12 +54,15 @@ struct ShaderList {
 
 /// What options and command line say, put together.
 struct RenderSettings {
+    CheckpointSettings checkpoint;
     int width = 320, height = 240;
     Region region;  ///< inclusive, in pixels; may reach outside of the frame
     float pixel_aspect_ratio = 1;
     int bucket_size = 64;
-    int samples = 1;      ///< camera samples a pixel; with adaptive sampling the least
-    int samples_max = 1;  ///< the most: `samples` without adaptive sampling
+    int samples = 1;  ///< camera samples a pixel; with adaptive sampling the least
+    /// By which textures behind bounces are filtered: as the scene says, so that more samples of it are the same picture.
+    int footprint_samples = 1;
+    int samples_max = 1;                ///< the most: `samples` without adaptive sampling
     float adaptive_threshold = 0.015F;  ///< noise at which a block of pixels stops
     std::uint32_t seed = 1;
     int threads = 0;
@@ -79,6 +83,7 @@ class Scene {
     ~Scene();
 
     RenderSettings settings;
+    RenderIdentity identity;                          ///< of what is rendered, for checkpoints
     std::shared_ptr<const ColorSpaces> color_spaces;  ///< outlives what was made with it
     std::shared_ptr<TextureCache> textures;
     std::vector<std::unique_ptr<ShapeGeometry>> geometries;

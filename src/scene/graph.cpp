@@ -123,6 +123,7 @@ bool SceneGraph::set(Name node, std::string_view param, std::string_view value,
 }
 
 bool SceneGraph::assign(std::string_view assignment, Diagnostics& diagnostics) {
+    fingerprint_.add(assignment);
     // Names may contain "." and "=": take the longest node name that exists.
     std::string_view first_node, first_param, first_value;
     for (std::size_t equals = assignment.find('='); equals != std::string_view::npos;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "core/fingerprint.h"
 #include "core/source.h"
 #include "scene/describe.h"
 #include "scene/document.h"
@@ -206,6 +207,8 @@ class SceneGraph {
     /// Unknown parameters that were skipped, those of skipped nodes not counted.
     [[nodiscard]] std::size_t n_unknown_params() const { return n_unknown_params_; }
     [[nodiscard]] const Registry& registry() const { return *registry_; }
+    /// Of all texts that the graph was made from, assignments and the files of procedurals included.
+    [[nodiscard]] const Fingerprint& fingerprint() const { return fingerprint_; }
 
     /// Sets a parameter to a value written as in a file; replaces a link. `param` may have suffixes ("color[1].r").
     /// For STRING parameters the text may also stand without quotes, blanks included.
@@ -229,6 +232,7 @@ class SceneGraph {
     NodeInstance* options_ = nullptr;
     std::vector<SkippedNode> skipped_;
     std::size_t n_unknown_params_ = 0;
+    Fingerprint fingerprint_;
     UnknownPolicy unknown_ = UnknownPolicy::Warn;  ///< as the scene was built
     bool assembled_ = false;
 };

@@ -85,6 +85,8 @@ std::byte* GraphEditor::address(NodeInstance& node, const ParamInfo& info) {
 
 void GraphEditor::build(const Document& document) {
     graph_.unknown_ = unknown_;
+    for (const auto& source : document.sources())
+        graph_.fingerprint_.add(source->text);
     std::vector<std::pair<const NodeBlock*, NodeInstance*>> read;
     add_nodes(document, read);
     // All nodes exist before the first link is read: links point forward and backward.

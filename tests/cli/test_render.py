@@ -194,4 +194,5 @@ def test_a_signal_ends_a_render_and_keeps_what_was_done(
     assert "stopped by" in err
     assert "what was done is in still.exr" in err
     assert "wrote still.exr" in out
-    assert sorted(os.listdir(tmp_path)) == ["still.ass", "still.exr"]
+    assert "--resume goes on from still.exr.checkpoint" in out
+    assert sorted(os.listdir(tmp_path)) == ["still.ass", "still.exr", "still.exr.checkpoint"]

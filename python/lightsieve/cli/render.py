@@ -26,6 +26,8 @@ JSON = {
     "width": "of the rendered region [pixels]",
     "height": "of the rendered region [pixels]",
     "samples": "camera samples taken",
+    "resumed_samples": "camera samples that a checkpoint had, not in `samples`",
+    "checkpoint": "file from which --resume can go on, or null",
     "dropped_samples": "contributions that were not finite",
     "rays": "closest-hit and shadow rays",
     "seconds": "sampling, without reading the scene and writing files",
@@ -80,6 +82,8 @@ def _document(scene: Path, compiled: CompiledScene, outcome: Outcome | None) -> 
             "width": outcome.width,
             "height": outcome.height,
             "samples": outcome.samples,
+            "resumed_samples": outcome.resumed_samples,
+            "checkpoint": outcome.checkpoint or None,
             "dropped_samples": outcome.dropped_samples,
             "rays": outcome.rays,
             "seconds": outcome.seconds,
@@ -104,6 +108,10 @@ def _print_summary(compiled: CompiledScene, outcome: Outcome) -> None:
         f"(+ {outcome.output_seconds:.1f} s output): "
         f"{outcome.samples:,} samples, {rate:,.0f} samples/s"
     )
+    if outcome.resumed_samples:
+        typer.echo(f"{outcome.resumed_samples:,} samples were in the checkpoint")
+    if outcome.checkpoint:
+        typer.echo(f"--resume goes on from {outcome.checkpoint}")
     if outcome.dropped_samples:
         typer.echo(f"{_output.plural(outcome.dropped_samples, 'sample')} dropped: not finite")
     if noisy := _noisiest(outcome):
@@ -234,6 +242,32 @@ def command(
             show_default=False,
         ),
     ] = "",
+    checkpoint: Annotated[
+        float,
+        typer.Option(
+            min=0,
+            metavar="MINUTES",
+            help="Time between two saves of what is done, beside the first file; 0: only when the "
+            "render is stopped.",
+        ),
+    ] = 5,
+    no_checkpoint: Annotated[
+        bool, typer.Option("--no-checkpoint", help="Save nothing but the pictures.")
+    ] = False,
+    keep_checkpoint: Annotated[
+        bool,
+        typer.Option(
+            "--keep-checkpoint",
+            help="Keep what was saved when the render is done, to go on with more samples later.",
+        ),
+    ] = False,
+    resume: Annotated[
+        bool,
+        typer.Option(
+            "--resume",
+            help="Go on where a render was stopped: the same bits as if it had not been.",
+        ),
+    ] = False,
     isa: Annotated[
         Literal["sse2", "avx2", "avx512"] | None,
         typer.Option(
@@ -269,6 +303,9 @@ def command(
         "lpe_table": lpe_table or "",
         "rendering_space": rendering_space,
         "isa": isa or "",
+        "checkpoint": None if no_checkpoint else checkpoint,
+        "resume": resume,
+        "keep_checkpoint": keep_checkpoint,
         "output": output,
         "aa": aa or 0,
         "spp": spp or 0,
