@@ -41,8 +41,9 @@ def pixels(folder: Path, name: str) -> bytes:
     """The picture's pixels as bytes: files differ in when they were made."""
     import OpenImageIO
 
-    buffer = OpenImageIO.ImageBuf(str(folder / name))
-    return bytes(buffer.get_pixels(OpenImageIO.FLOAT).tobytes())
+    values = OpenImageIO.ImageBuf(str(folder / name)).get_pixels(OpenImageIO.FLOAT)
+    assert values is not None
+    return bytes(values.tobytes())
 
 
 def test_killed_twenty_times_and_still_the_same_bits(
