@@ -85,6 +85,7 @@ ScenePtr Compiler::run() {
                 scene_->plan, diagnostics_);
     const std::size_t forgiven = abort_on_error_ ? 0 : diagnostics_.n_errors() - before;
     find_adaptive_layer();
+    find_culling();
     make_cameras();
     make_views();
     part_passes();

@@ -82,6 +82,34 @@ bool has_negative_lobes(const PixelFilter& filter) {
 
 }  // namespace
 
+/// What need not be traced. Clamps and adaptive sampling look at all light, be it asked for or not: with them AOVs would be
+/// others than those of a full render.
+void Compiler::find_culling() {
+    const RenderSettings& s = scene_->settings;
+    const AovPlan& plan = scene_->plan;
+    if (plan.wants_beauty) return;
+    constexpr float kNoClamp = 1e30F;
+    const bool adaptive = s.samples_max > s.samples && !plan.adaptive_layer;
+    const bool shows_light = std::ranges::any_of(
+        plan.layers, [](const PlannedLayer& layer) { return is_light(layer.source); });
+    const auto lint = [&](const std::string& what, std::string_view param, std::string hint) {
+        if (shows_light)
+            diagnostics_.lint(Code::OutputCulling, what, option_place(param), std::move(hint));
+    };
+    if (s.sample_clamp < kNoClamp || adaptive)
+        return lint("all light is traced, though no output is the beauty: " +
+                        std::string(adaptive ? "adaptive sampling" : "AA_sample_clamp") +
+                        " looks at it",
+                    adaptive ? "enable_adaptive_sampling" : "AA_sample_clamp",
+                    "without it only what the outputs can show is traced");
+    scene_->culling = s.indirect_clamp < kNoClamp ? Culling::Paths : Culling::Lobes;
+    if (scene_->culling == Culling::Paths)
+        lint(
+            "lobes are sampled though no output shows their light: indirect_sample_clamp looks "
+            "at it",
+            "indirect_sample_clamp", "with indirect_sample_clamp 1e30 they are left out");
+}
+
 void Compiler::find_adaptive_layer() {
     const Name wanted = option<Name>("adaptive_aov", {});
     if (wanted.empty() || scene_->settings.samples_max <= scene_->settings.samples) return;

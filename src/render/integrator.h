@@ -269,10 +269,16 @@ class Integrator {
     }
     /// Whether anybody still asks for light, or for what the camera ray meets.
     [[nodiscard]] bool wanted() const {
-        return scene_.plan.wants_beauty || tracker_.live() ||
+        return scene_.culling == Culling::None || tracker_.live() ||
                (path_.n_scatter == 0 && !out_->first.hit);
     }
 
+    /// Whether anybody asks for the light that the vertex gets from a light.
+    [[nodiscard]] bool wanted_from(const SceneLight& light) const {
+        const std::span<const Channel> channels(channels_.data(), n_channels_);
+        return scene_.culling == Culling::None || tracker_.takes(channels, light.as_light) ||
+               (light.is_skydome && tracker_.takes(channels, light.as_background));
+    }
     /// What a path carries from one vertex to the next: all that is put aside where it splits.
     struct Path {
         Sampler sampler{0, 0, 0, 0};

@@ -79,6 +79,10 @@ void Integrator<Tracker>::add_light_along(const Ray& ray, const AlongRay& part, 
     const auto index = static_cast<std::uint32_t>(picked.index);
     const float pick = scene_.finite_lights.probability(picked.index);
     const SceneLight& light = scene_.lights[index];
+    // The path's own vertex comes later and fills these anew.
+    channels_[0] = {part.medium.record, true};
+    n_channels_ = 1;
+    if (!wanted_from(light)) return;
     const Equiangular points(ray, part.begin, part.end, light.light->bounds().box);
     const float t = points.sample(u.x);
     const float pdf = pick * points.pdf(t) * static_cast<float>(n);
@@ -112,9 +116,6 @@ void Integrator<Tracker>::add_light_along(const Ray& ray, const AlongRay& part, 
     arriving *= media_transmittance(before);
     const Color value = part.medium.scattering * sample.radiance * arriving *
                         (weight * phase / (sample.pdf * pdf));
-    // The path's own vertex comes later and fills these anew.
-    channels_[0] = {part.medium.record, true};
-    n_channels_ = 1;
     deposit_scattered({light.as_light, light.light_event}, [&](std::size_t g, std::size_t) {
         return path_.groups[g].key.lights_only
                    ? kBlack

@@ -46,6 +46,7 @@ template <class Tracker>
 void Integrator<Tracker>::ask_light(const Surface& surface, std::uint32_t index, float samples,
                                     Vec2f u, float coin) {
     const SceneLight& light = scene_.lights[index];
+    if (!wanted_from(light)) return;
     const LightSample sample = light.light->sample_facing(
         surface.at.position, light.samples_only ? Vec3f{} : facing(surface), u);
     if (!(sample.pdf > 0) || is_black(sample.radiance)) return;
@@ -185,6 +186,9 @@ void Integrator<Tracker>::add_light_at_exit(const WalkExit& exit) {
     const LightPick pick = lights->pick(surface.at.position, exit.outside, points_.choice.y);
     if (!(pick.probability > 0)) return;
     const SceneLight& light = scene_.lights[pick.light];
+    if (scene_.culling != Culling::None && !tracker_.takes(light.as_light) &&
+        !(light.is_skydome && tracker_.takes(light.as_background)))
+        return;
     const bool samples_only = light.samples_only || surface.object->tampers_with_shadows();
     const LightSample sample = light.light->sample_facing(
         surface.at.position, samples_only ? Vec3f{} : exit.normal, points_.light);

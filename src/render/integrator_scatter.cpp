@@ -39,11 +39,13 @@ template <class Tracker>
 void Integrator<Tracker>::choose_probabilities() {
     // Throughput that may use each channel.
     const std::span<Color> reach = cleared_values();
-    for (std::size_t c = 0; c < n_channels_; ++c)
+    for (std::size_t c = 0; c < n_channels_; ++c) {
+        if (scene_.culling == Culling::Lobes && !tracker_.goes_on(channels_[c])) continue;
         for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
             if (!path_.groups[g].key.lights_only &&
                 channel_allowed(path_.groups[g].key, channels_[c]))
                 reach[c] += path_.groups[g].throughput * path_.groups.indirect(g);
+    }
     float total = 0;
     const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
     if (n == 1 && is_black(closures_.transparency())) {

@@ -50,6 +50,9 @@ class LogTracker {
     }
     [[nodiscard]] bool live() const { return !terms_.empty(); }
     [[nodiscard]] static bool live_probe() { return true; }
+    [[nodiscard]] static bool takes(lpe::TerminalId) { return true; }
+    [[nodiscard]] static bool takes(std::span<const Channel>, lpe::TerminalId) { return true; }
+    [[nodiscard]] static bool goes_on(const Channel&) { return true; }
     template <class Value>
     void add(Terminal terminal, const Value& value, float scale) {
         for (const auto& t : terms_.all())

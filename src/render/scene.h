@@ -77,12 +77,20 @@ struct RenderSettings {
     bool dielectric_priorities = true;
 };
 
+/// What is not traced because no output can show it.
+enum class Culling : std::uint8_t {
+    None,  ///< the beauty is wanted, or something looks at all light (AA_sample_clamp, adaptive sampling)
+    Paths,  ///< paths that no AOV goes on with, and shadow rays to lights whose light no AOV takes
+    Lobes,  ///< and lobes that lead to such paths are not sampled: the same means, other noise
+};
+
 class Scene {
   public:
     Scene();
     ~Scene();
 
     RenderSettings settings;
+    Culling culling = Culling::None;
     RenderIdentity identity;                          ///< of what is rendered, for checkpoints
     std::shared_ptr<const ColorSpaces> color_spaces;  ///< outlives what was made with it
     std::shared_ptr<TextureCache> textures;

@@ -87,6 +87,31 @@ class AovTracker {
         return false;
     }
 
+    /// Whether any AOV takes light of a kind that arrives now.
+    [[nodiscard]] bool takes(lpe::TerminalId terminal) const {
+        for (const Set& set : sets_)
+            for (const auto& t : set.terms.all())
+                if (set.machine.automaton->atom(t.state, terminal) != lpe::kNoAtom) return true;
+        return false;
+    }
+    /// Whether any AOV takes light of a kind that arrives after scattering by any of the channels.
+    [[nodiscard]] bool takes(std::span<const Channel> channels, lpe::TerminalId terminal) const {
+        for (const Set& set : sets_)
+            for (const auto& t : set.terms.all())
+                for (const Channel& channel : channels) {
+                    const lpe::State state = set.machine.step(t.state, *channel.record);
+                    if (set.machine.automaton->atom(state, terminal) != lpe::kNoAtom) return true;
+                }
+        return false;
+    }
+    /// Whether any AOV can still receive something after scattering by the channel.
+    [[nodiscard]] bool goes_on(const Channel& channel) const {
+        for (const Set& set : sets_)
+            for (const auto& t : set.terms.all())
+                if (set.machine.live(set.machine.step(t.state, *channel.record))) return true;
+        return false;
+    }
+
     /// Light that arrives without another scattering event: value(group).
     template <class Value>
     void add(Terminal terminal, const Value& value, float scale) {

@@ -48,11 +48,12 @@ TEST(Unbiased, LowLightThresholdMovesNoAov) {
 // Terms --------------------------------------------------------------------------------------------------------------------
 
 /// A closed room of half metal, half diffuse walls with a lamp: two events at every vertex.
-std::string two_lobe_room() {
+///
+/// options  more lines for the options node
+std::string two_lobe_room(const std::string& options = " indirect_sample_clamp 1e6") {
     std::string text =
         frame_text(10, 10, 4, persp_camera({0.1F, 0.2F, 0.5F}, {0.3F, -0.2F, -1}, 70),
-                   " GI_diffuse_depth 8\n GI_specular_depth 8\n GI_total_depth 8\n "
-                   "indirect_sample_clamp 1e6") +
+                   " GI_diffuse_depth 8\n GI_specular_depth 8\n GI_total_depth 8\n" + options) +
         node("standard_surface", "wall",
              " specular 0\n metalness 0.5\n base_color 0.8 0.7 0.9\n specular_roughness 0.6\n "
              "caustics on");
@@ -101,6 +102,53 @@ TEST(Unbiased, TooManyTermsAreReducedWithoutMovingMeansOrSums) {
             EXPECT_TRUE(check_mean_of(difference[aov][c], 0,
                                       aov == 0 ? "sixth_d minus log" : "sixth_s minus log"));
         }
+}
+
+/// The room with an AOV as output, with the beauty or without it.
+Picture with_output(const std::string& aov, const std::string& options, bool with_beauty) {
+    const std::string own = '"' + aov + " RGB f d\"",
+                      outputs = with_beauty ? "2 1 STRING \"RGBA RGBA f d\" " + own : own;
+    RenderOptions in = in_memory();
+    in.roulette_depth = -1;
+    return render(TestScene(two_lobe_room(options + "\n outputs " + outputs), in));
+}
+
+TEST(Culling, OnlyWhatIsAskedForIsTraced) {
+    const std::string off = " indirect_sample_clamp 1e30", on = " indirect_sample_clamp 10";
+    for (const std::string aov : {"direct", "diffuse_direct", "specular_indirect", "specular"}) {
+        const Picture full = with_output(aov, off, true), part = with_output(aov, off, false);
+        EXPECT_TRUE(check_lit(part, aov));
+        EXPECT_TRUE(check_same_mean(part, aov, full, aov)) << aov;
+        EXPECT_LT(part.result().rays, full.result().rays) << aov;
+        // Where lobes are sampled as ever, fewer rays give the same bits.
+        const Picture full_clamped = with_output(aov, on, true),
+                      clamped = with_output(aov, on, false);
+        EXPECT_TRUE(check_identical(clamped, aov, full_clamped, aov)) << aov;
+        EXPECT_LE(clamped.result().rays, full_clamped.result().rays) << aov;
+    }
+    // Direct light is a camera ray, rays to the light, and rays that may meet it: nothing of the eight bounces.
+    const RenderResult direct = with_output("direct", off, false).result();
+    EXPECT_LT(static_cast<double>(direct.rays) / static_cast<double>(direct.samples), 12.0);
+}
+
+TEST(Culling, IsOffWhereSomethingLooksAtAllLight) {
+    const auto rays = [](const std::string& options, bool with_beauty = false) {
+        return with_output("diffuse_direct", options, with_beauty).result().rays;
+    };
+    const std::uint64_t all = rays(" AA_sample_clamp 5", true);
+    EXPECT_LT(rays(""), all / 2);
+    EXPECT_EQ(rays(" AA_sample_clamp 5"), all);
+    // And it is said.
+    for (const auto& [options, why] :
+         {std::pair{" AA_sample_clamp 5", "AA_sample_clamp looks at it"},
+          {" enable_adaptive_sampling on", "adaptive sampling looks at it"},
+          {"", "indirect_sample_clamp looks at it"}}) {
+        const TestScene scene(
+            two_lobe_room(std::string(options) + "\n outputs \"direct RGB f d\""));
+        ASSERT_EQ(scene.diagnostics().items().size(), 1U);
+        EXPECT_EQ(scene.diagnostics().items()[0].code, Code::OutputCulling);
+        EXPECT_NE(scene.diagnostics().items()[0].message.find(why), std::string::npos) << why;
+    }
 }
 
 TEST(Unbiased, PathsEndOnlyWhenEveryTermIsDead) {
