@@ -238,28 +238,32 @@ std::vector<const std::vector<Film::LightSum>*> Film::parts_of(const ViewSums& s
     return parts;
 }
 
-void Film::estimate_noise(const PlannedLayer* layer, std::vector<PixelNoise>& out) const {
+void Film::estimate_noise(const PlannedLayer* layer, int step,
+                          std::vector<PixelNoise>& out) const {
     const ViewSums& sums = layer == nullptr ? views_.front() : sums_of(layer->view);
     const std::vector<const std::vector<LightSum>*> parts =
         layer == nullptr ? std::vector{&sums.beauty} : parts_of(sums, *layer);
-    out.assign(sums.beauty.size(), {});
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        double all = 0, half = 0;
-        for (const std::vector<LightSum>* part : parts) {
-            const Sum& c = (*part)[i].color;
-            all += double{luminance(Color(static_cast<float>(c[0]), static_cast<float>(c[1]),
-                                          static_cast<float>(c[2])))};
-            half += (*part)[i].half;
-        }
-        const double weight = sums.weight[i], in_half = sums.half_weight[i],
-                     in_other = weight - in_half;
-        if (!(in_half > 0) || !(in_other > 0)) {
-            out[i] = {weight > 0 ? all / weight : 0, std::numeric_limits<double>::infinity()};
-            continue;
-        }
-        const double apart = half / in_half - all / weight;
-        out[i] = {all / weight, apart * apart * in_half / in_other};
+    out.clear();
+    for (int y = 0; y < height_; y += step)
+        for (int x = 0; x < width_; x += step)
+            out.push_back(noise_of(sums, parts, static_cast<std::size_t>(y * width_ + x)));
+}
+
+PixelNoise Film::noise_of(const ViewSums& sums,
+                          std::span<const std::vector<LightSum>* const> parts, std::size_t pixel) {
+    double all = 0, half = 0;
+    for (const std::vector<LightSum>* part : parts) {
+        const Sum& c = (*part)[pixel].color;
+        all += double{luminance(
+            Color(static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])))};
+        half += (*part)[pixel].half;
     }
+    const double weight = sums.weight[pixel], in_half = sums.half_weight[pixel],
+                 in_other = weight - in_half;
+    if (!(in_half > 0) || !(in_other > 0))
+        return {weight > 0 ? all / weight : 0, std::numeric_limits<double>::infinity()};
+    const double apart = half / in_half - all / weight;
+    return {all / weight, apart * apart * in_half / in_other};
 }
 
 void Film::resolve_light(const ViewSums& sums, const PlannedLayer& layer,

@@ -97,10 +97,11 @@ class Film {
     /// Sums that `save` wrote, after `begin` of the same pass and size. False if they do not fit: then begin anew.
     [[nodiscard]] bool load(ByteReader& in);
 
-    /// Noise of all pixels of the bucket, row by row: of a layer of light, or of the beauty through the pass's first filter.
+    /// Noise of the bucket's pixels, row by row: of a layer of light, or of the beauty through the pass's first filter.
     ///
     /// layer  null: the beauty
-    void estimate_noise(const PlannedLayer* layer, std::vector<PixelNoise>& out) const;
+    /// step   of every so many rows and columns one is looked at
+    void estimate_noise(const PlannedLayer* layer, int step, std::vector<PixelNoise>& out) const;
 
   private:
     using Sum = std::array<double, 3>;
@@ -166,6 +167,10 @@ class Film {
     /// The sums that a layer is the sum of, in the order of their atoms.
     [[nodiscard]] std::vector<const std::vector<LightSum>*> parts_of(
         const ViewSums& sums, const PlannedLayer& layer) const;
+    /// Noise of a pixel of the layer that is the sum of the parts.
+    [[nodiscard]] static PixelNoise noise_of(const ViewSums& sums,
+                                             std::span<const std::vector<LightSum>* const> parts,
+                                             std::size_t pixel);
     void add_data(ViewSums& sums, std::size_t pixel, const FirstHit& hit, double weight);
     static void add_written(ViewSums& sums, std::size_t pixel, const SampleBuffer& sample,
                             double weight);

@@ -46,6 +46,8 @@ struct DroppedSample {
 /// As many are described, for somebody who wants to trace them again.
 constexpr std::size_t kDescribedDrops = 10;
 
+/// Of so many rows and columns one tells how noisy layers are: hundreds of layers of all pixels would take their time.
+constexpr int kNoiseStep = 4;
 /// Samples of a thread between two reports of progress: some hundred reports a second.
 constexpr std::uint64_t kSamplesAReport = 1024;
 
@@ -284,7 +286,7 @@ void Renderer::render_pass(Worker& worker, std::size_t bucket, std::size_t index
             for (int x = 0; x < rect.width; ++x)
                 if (schedule.goes_on(x, y) && !take_samples(worker, camera, rect, x, y, schedule))
                     return save(worker, bucket, index, schedule);
-        if (schedule.decides()) worker.film.estimate_noise(noisy, worker.noise);
+        if (schedule.decides()) worker.film.estimate_noise(noisy, 1, worker.noise);
         schedule.next_round(worker.noise);
         samples_total_ -= static_cast<std::uint64_t>(schedule.n_stopped()) *
                           static_cast<std::uint64_t>(s.samples_max - schedule.done());
@@ -328,7 +330,7 @@ void Renderer::report_progress(Worker& worker) {
 void Renderer::measure_noise(Worker& worker, std::size_t bucket, std::size_t layer) {
     const PlannedLayer& planned = scene_.plan.layers[layer];
     if (!is_light(planned.source) || scene_.plan.views[planned.view].filter->closest()) return;
-    worker.film.estimate_noise(&planned, worker.noise);
+    worker.film.estimate_noise(&planned, kNoiseStep, worker.noise);
     NoiseSum& sum = noise_[bucket][layer];
     for (const PixelNoise& p : worker.noise) {
         if (!std::isfinite(p.variance)) continue;
