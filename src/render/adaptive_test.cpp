@@ -147,7 +147,7 @@ TEST(LayerNoise, IsTheErrorThatPixelsHave) {
                           " GI_diffuse_depth 1\n GI_diffuse_samples 1\n") +
                    lambert("grey", 0.5F) + floor("ground", 0, 3, "grey") +
                    node("flat", "bright", " color 1 1 1") +
-                   quad("half", {-50, 1, -50}, {0, 1, -50}, {0, 1, 50}, {-50, 1, 50}, "bright"),
+                   quad("part", {-50, 1, -50}, {30, 1, -50}, {-29, 1, 50}, {-50, 1, 50}, "bright"),
                in_memory({"indirect"}));
     const Estimate truth = estimate(picture, "indirect", 1);
     const double spread = truth.error * std::sqrt(static_cast<double>(picture.n_pixels()));
