@@ -1,7 +1,9 @@
 #include "io/image_read.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "io/image_open.h"
 #include "io/image_try.h"
@@ -21,20 +23,18 @@ namespace {
          "write the file again, or convert it to EXR, TIFF or PNG");
 }
 
-}  // namespace
-
-ColorImage read_color_image(const std::string& path, std::string_view color_space,
-                            Diagnostics& diagnostics, const SourceSpan& where,
-                            std::size_t max_pixels) {
+/// The file, open, its sizes checked.
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path, const SourceSpan& where,
+                                               std::size_t max_pixels) {
     std::error_code ec;
     if (!std::filesystem::exists(path, ec))
         fail(Code::FileNotFound, "there is no picture \"" + path + "\"", where,
              "check the name and the search paths");
     std::string problem;
     if (!try_image(path, problem)) damaged(path, problem, where);
-    const std::unique_ptr<OIIO::ImageInput> input = open_image(path, problem);
+    std::unique_ptr<OIIO::ImageInput> input = open_image(path, problem);
     if (!input) damaged(path, problem, where);
-    const OIIO::ImageSpec spec = input->spec();
+    const OIIO::ImageSpec& spec = input->spec();
     if (spec.deep || spec.depth > 1) damaged(path, "it is deep or three-dimensional", where);
     if (static_cast<std::size_t>(spec.image_pixels()) > max_pixels) {
         fail(Code::LimitImageSize,
@@ -42,6 +42,26 @@ ColorImage read_color_image(const std::string& path, std::string_view color_spac
                  std::to_string(spec.height) + " pixels, more than " + std::to_string(max_pixels),
              where, "use a smaller picture");
     }
+    return input;
+}
+
+/// The least float of which `steps` times is not less than the integer that it stands for, so that neither rounding nor
+/// dithering makes it another.
+float whole_step(float value, float steps) {
+    const float k = std::round(value * steps);
+    float out = k / steps;
+    while (out * steps < k)
+        out = std::nextafter(out, 2.0F);
+    return out;
+}
+
+}  // namespace
+
+ColorImage read_color_image(const std::string& path, std::string_view color_space,
+                            Diagnostics& diagnostics, const SourceSpan& where,
+                            std::size_t max_pixels) {
+    const std::unique_ptr<OIIO::ImageInput> input = open_picture(path, where, max_pixels);
+    const OIIO::ImageSpec spec = input->spec();
     const ColorSpaces& spaces = ColorSpaces::built_in();
     const bool linear = is_float_format(spec);
     const TexelConversion conversion(
@@ -75,6 +95,20 @@ ColorImage read_color_image(const std::string& path, std::string_view color_spac
         }
     }
     return image;
+}
+
+StoredImage read_stored_image(const std::string& path, std::size_t max_pixels) {
+    const std::unique_ptr<OIIO::ImageInput> input = open_picture(path, {}, max_pixels);
+    const OIIO::ImageSpec& spec = input->spec();
+    StoredImage out{spec.width, spec.height, spec.nchannels, {}};
+    out.values.resize(static_cast<std::size_t>(spec.image_pixels()) *
+                      static_cast<std::size_t>(spec.nchannels));
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, out.values.data()))
+        damaged(path, input->geterror(), {});
+    if (spec.format == OIIO::TypeUInt8)
+        for (float& value : out.values)
+            value = whole_step(value, 255);
+    return out;
 }
 
 }  // namespace lightsieve

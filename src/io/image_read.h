@@ -34,4 +34,14 @@ inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 29;
                                           Diagnostics& diagnostics, const SourceSpan& where = {},
                                           std::size_t max_pixels = kMaxImagePixels);
 
+/// A picture's values as they are stored: integers as parts of their greatest value, nothing converted.
+struct StoredImage {
+    int width = 0, height = 0, n_channels = 0;
+    std::vector<float> values;  ///< height * width * n_channels, row 0 at the top
+};
+/// Reads the first picture of a file that `write_picture` wrote, to write it again: integers survive that, also with dither.
+/// throws  InputError as read_color_image
+[[nodiscard]] StoredImage read_stored_image(const std::string& path,
+                                            std::size_t max_pixels = kMaxImagePixels);
+
 }  // namespace lightsieve

@@ -83,6 +83,15 @@ std::vector<std::byte> stored_bytes(const PictureSpec& spec, std::span<const flo
     return {raw.begin(), raw.end()};
 }
 
+const char* format_name(PictureFormat format) {
+    switch (format) {
+        case PictureFormat::Png: return "png";
+        case PictureFormat::Tiff: return "tiff";
+        case PictureFormat::Jpeg: return "jpeg";
+    }
+    return "tiff";
+}
+
 OIIO::ImageSpec oiio_spec(const PictureSpec& spec) {
     OIIO::ImageSpec out(spec.width, spec.height, spec.n_channels, oiio_type(spec.type));
     if (spec.n_channels == 4) out.alpha_channel = 3;
@@ -93,6 +102,10 @@ OIIO::ImageSpec oiio_spec(const PictureSpec& spec) {
         out.attribute("compression", compression_name(spec.compression));
         out.tile_width = out.tile_height = spec.tile_size;
         out.tile_depth = spec.tile_size > 0 ? 1 : 0;
+    }
+    if (spec.format == PictureFormat::Jpeg) {
+        out.attribute("CompressionQuality", std::clamp(spec.quality, 1, 100));
+        out.attribute("jpeg:subsampling", "4:4:4");
     }
     if (spec.pixel_aspect_ratio != 1) out.attribute("PixelAspectRatio", spec.pixel_aspect_ratio);
     for (const auto& [name, text] : spec.metadata)
@@ -118,7 +131,7 @@ void write_picture(const std::string& path, const PictureSpec& spec,
                                               " values for a picture of " + std::to_string(n));
     AtomicFile file(path);
     const std::unique_ptr<OIIO::ImageOutput> output =
-        OIIO::ImageOutput::create(spec.format == PictureFormat::Png ? "png" : "tiff");
+        OIIO::ImageOutput::create(format_name(spec.format));
     if (!output) refuse(path, OIIO::geterror());
     if (!output->open(file.temporary(), oiio_spec(spec))) refuse(path, output->geterror());
     const std::vector<std::byte> bytes = stored_bytes(spec, pixels);

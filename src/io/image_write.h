@@ -1,4 +1,4 @@
-// PNG and TIFF pictures: quantisation, dithering and the file, nothing about colour.
+// PNG, TIFF and JPEG pictures: quantisation, dithering and the file, nothing about colour.
 //
 // Values arrive as they are to be stored (already converted to the picture's colour space). Integers are clamped to
 // [0,1] and rounded, NaN becomes 0. A file appears under its name only when it is complete (atomic_file.h).
@@ -11,17 +11,18 @@
 
 namespace lightsieve {
 
-enum class PictureFormat : std::uint8_t { Png, Tiff };
+enum class PictureFormat : std::uint8_t { Png, Tiff, Jpeg };
 /// How one value is stored.
 enum class PictureType : std::uint8_t { UInt8, UInt16, UInt32, Float };
 enum class TiffCompression : std::uint8_t { None, Lzw, Rle, Zip };
 
 struct PictureSpec {
     int width = 0, height = 0;
-    int n_channels = 0;  ///< 1, 3 or 4 (the fourth is alpha)
+    int n_channels = 0;  ///< 1, 3 or 4 (the fourth is alpha; JPEG has none)
     PictureFormat format = PictureFormat::Png;
     PictureType type = PictureType::UInt8;
     TiffCompression compression = TiffCompression::Lzw;
+    int quality = 100;  ///< JPEG: 1 to 100
     int tile_size = 0;  ///< TIFF: multiple of 16, or 0 for scanlines
     bool dither =
         false;  ///< UInt8 only: noise of one step, the same for every run, keeps the mean

@@ -35,6 +35,7 @@ struct ImageLayer {
     float filter_width = 0;      ///< [pixels]
     bool half = false;           ///< HALF was asked for this output
     bool is_color = true;        ///< colour-managed; false for N, P, Z, ...
+    bool exact = false;          ///< every bit counts: 32-bit floats, packed without loss
     std::size_t n_channels = 0;  ///< 1 to 4, in the order of the buffers
 };
 
@@ -59,9 +60,24 @@ struct Bucket {
         layers;  ///< per layer: height * width * n_channels, row by row
 };
 
+/// The deep pixels of a finished rectangle: what each surface, or point in a medium, adds to its pixel. What is nearer does
+/// not hide what is behind yet: opacities of a pixel add up to its alpha, and values to its flat colour.
+struct DeepBucket {
+    int x = 0, y = 0, width = 0, height = 0;  ///< in frame pixels
+    std::vector<std::size_t> ends;  ///< for each pixel, row by row: one past its last sample
+    std::vector<float> depths;      ///< for each sample: along the viewing axis
+    std::vector<Color> opacities;   ///< for each sample
+    std::vector<float>
+        values;  ///< for each sample: the channels of all layers but alpha, layer after layer
+};
+
 class Driver {
   public:
     virtual ~Driver() = default;
+    /// Wants deep pixels (write_deep) in place of flat ones (write).
+    [[nodiscard]] virtual bool deep() const { return false; }
+    /// As write.
+    virtual void write_deep(const DeepBucket& /*bucket*/) {}
     /// The file that will be written, after -o and searching; for messages.
     [[nodiscard]] virtual std::string path() const = 0;
     /// Opens the temporary file. Reports and returns false if that is impossible.

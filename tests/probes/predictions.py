@@ -37,6 +37,8 @@ DIFFERS = 0.01
 """Least difference, against the mean square of the pictures."""
 OVER_NOISE = 2.0
 """Least difference, against that of another seed."""
+CORNER = (("min", "8"), ("max", "15"))
+"""The lower right quarter of a frame of 16 pixels."""
 EXACT = 2e-4
 """Most relative difference of numbers that must be equal, but for rounding."""
 
@@ -304,7 +306,16 @@ def _facts(case: Case, value: str | None) -> dict[str, str]:
     parts = 1
     while source.seek_subimage(parts, 0):
         parts += 1
+    deep = source.read_native_deep_image() if spec.deep else None
+    counts = [deep.samples(pixel) for pixel in range(deep.pixels)] if deep else [0]
     source.close()
+    if deep is not None:
+        return {
+            "name": Path(name).name,
+            "tile": str(spec.tile_width),
+            "types": ",".join(str(spec.channelformat(c)) for c in range(spec.nchannels)),
+            "samples": str(max(counts)),
+        }
     # As they are stored: colours that are not multiplied by alpha stay so.
     raw = OpenImageIO.ImageSpec()
     raw.attribute("oiio:UnassociatedAlpha", 1)
@@ -317,10 +328,25 @@ def _facts(case: Case, value: str | None) -> dict[str, str]:
         "tile": str(spec.tile_width),
         "channels": ",".join(spec.channelnames),
         "size": f"{spec.width}x{spec.height}",
+        "bytes": str(Path(name).stat().st_size),
         "parts": str(parts),
         "centre": f"{pixels[pixels.shape[0] // 2, pixels.shape[1] // 2, 0]:.3f}",
         "ragged": str(np.ptp(pixels[:, :, 0], axis=0).max()),
     }
+
+
+def goes_on(case: Case, arguments: list[str]) -> None:
+    """Written again for a corner of the frame, a file keeps the rest at the second value only."""
+    probe = case.probe
+    corner = {f"region_{end}_{axis}": value for end, value in CORNER for axis in "xy"}
+    part = Probe(**{**probe.__dict__, "options": {**probe.options, **corner}})
+    kept = []
+    for value in (probe.before, probe.after):
+        texts = [scene_text(probe, value), scene_text(part, value)]
+        name = case.renderer.written_over(texts, probe.sets)
+        pixels = np.asarray(OpenImageIO.ImageBuf(name).get_pixels(OpenImageIO.FLOAT))
+        kept.append(pixels.shape[0] == int(arguments[0]) and bool(pixels[0, 0].max() > 0))
+    _demand(kept == [False, True], f"the rest is kept: {kept}")
 
 
 def file(case: Case, arguments: list[str]) -> None:
@@ -341,7 +367,7 @@ PREDICTIONS: dict[str, Prediction] = {
     for function in (
         brighter, darker, times, redder, greener, bluer, left, right, up, down, sharper,
         blurrier, peaked, spread, fuller, emptier, mirrored, gives, equals, differs, noise, same,
-        size, fails, renders, file,
+        size, fails, renders, file, goes_on,
     )
 }  # fmt: skip
 

@@ -282,6 +282,19 @@ class Renderer:
             self._known[key] = lightsieve.render(path, threads=1, **settings)
         return self._known[key]
 
+    def written_over(self, texts: Iterable[str], sets: Iterable[str] = ()) -> str:
+        """Renders scenes into one folder, one after the other; gives the last one's file."""
+        self._files += 1
+        output = f"{self._folder}/files{self._files}/"
+        Path(output).mkdir()
+        name = ""
+        for text in texts:
+            path = self._folder / "probe.ass"
+            path.write_text(text)
+            chosen = dict(part.split("=", 1) for part in sets)
+            name = lightsieve.render(path, threads=1, set=chosen, output=output).files[0]
+        return name
+
 
 @dataclass(frozen=True)
 class Case:

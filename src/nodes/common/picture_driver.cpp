@@ -1,8 +1,10 @@
 #include "nodes/common/picture_driver.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "io/atomic_file.h"
+#include "io/image_read.h"
 
 namespace lightsieve {
 
@@ -70,6 +72,7 @@ bool PictureDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
     spec_.type = options_.type;
     spec_.compression = options_.compression;
     spec_.tile_size = options_.tiled ? kTileSize : 0;
+    spec_.quality = options_.quality;
     spec_.dither = options_.dither && layer_.is_color;
     spec_.unassociated_alpha = options_.unpremult_alpha && options_.type == PictureType::UInt8;
     spec_.pixel_aspect_ratio = header.pixel_aspect_ratio;
@@ -80,6 +83,7 @@ bool PictureDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
     pixels_.assign(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(spec_.height) *
                        static_cast<std::size_t>(spec_.n_channels),
                    0.0F);
+    if (options_.append) take_over(diagnostics);
     try {
         const AtomicFile writable(path_);  // found out before the first ray; removed at once
     } catch (const InputError& e) {
@@ -87,6 +91,27 @@ bool PictureDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
         return false;
     }
     return true;
+}
+
+void PictureDriver::take_over(Diagnostics& diagnostics) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path_, ignored)) return;
+    try {
+        StoredImage old = read_stored_image(path_);
+        if (old.width == spec_.width && old.height == spec_.height &&
+            old.n_channels == spec_.n_channels) {
+            pixels_ = std::move(old.values);
+            return;
+        }
+        diagnostics.warning(Code::InvalidValue,
+                            "\"" + path_ +
+                                "\" is written anew: it has another size or other "
+                                "channels, so there is nothing to go on with",
+                            where_, "with output_padded a file has the size of the frame");
+    } catch (const InputError& e) {
+        diagnostics.warning(Code::InvalidValue,
+                            "\"" + path_ + "\" is written anew: " + e.errors()[0].message, where_);
+    }
 }
 
 void PictureDriver::store(const float* pixel, float* out) const {

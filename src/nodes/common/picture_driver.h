@@ -1,4 +1,4 @@
-// What driver_png and driver_tiff share: one layer, converted to the picture's colour space, written at the end.
+// What driver_png, driver_tiff and driver_jpeg share: one layer, converted to the picture's colour space, written at the end.
 //
 // The frame is held in memory: these formats store rows from the top, and pictures are small beside EXR files.
 #pragma once
@@ -23,6 +23,8 @@ struct PictureOptions {
     bool unpremult_alpha =
         false;  ///< divide colours by alpha; acts on 8-bit pictures only, as in Arnold
     bool skip_alpha = false;
+    bool append = false;         ///< goes on with a file that is there: what is not rendered stays
+    int quality = 100;           ///< of JPEG
     bool output_padded = false;  ///< the whole frame, black around the region that was rendered
 };
 
@@ -39,6 +41,8 @@ class PictureDriver final : public Driver {
 
   private:
     [[nodiscard]] bool fits(const ImageHeader& header, Diagnostics& diagnostics) const;
+    /// Takes over the pixels of the file that is there, if it is such a picture.
+    void take_over(Diagnostics& diagnostics);
     /// One pixel of the layer as it is to be stored.
     void store(const float* pixel, float* out) const;
     void report(const InputError& error, Diagnostics& diagnostics) const;

@@ -1,10 +1,16 @@
 // driver_exr: any number of layers in one OpenEXR file, rendering-space values unless told otherwise.
 //
 // Channel names and header attributes follow Arnold's, so that tools which read its files read these.
+#include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <sstream>
 
 #include "core/color.h"
+#include "io/atomic_file.h"
+#include "io/exr_read.h"
 #include "io/exr_write.h"
+#include "nodes/common/exr_canvas.h"
 #include "scene/describe.h"
 #include "scene/driver.h"
 #include "scene/node_context.h"
@@ -22,6 +28,7 @@ struct DriverExr {
          append = false, multipart = false;
     Name color_space = "auto";
     Array<Name> custom_attributes;
+    NodeRef input;
 
     static NodeType describe();
     [[nodiscard]] std::unique_ptr<Driver> make_driver(NodeContext& context) const;
@@ -40,9 +47,10 @@ NodeType DriverExr::describe() {
             "Tiles, written as they are rendered, instead of scanlines.");
     d.param("preserve_layer_name", &DriverExr::preserve_layer_name,
             "Keeps the layer's name in the channels of a file with one layer.");
-    d.param("autocrop", &DriverExr::autocrop, "Cuts the file's data window to what is not empty.")
-        .pending();
-    d.param("append", &DriverExr::append, "Goes on with a file that was begun.").pending();
+    d.param("autocrop", &DriverExr::autocrop, "Cuts the file's data window to what is not 0.");
+    d.param("append", &DriverExr::append,
+            "Goes on with a file that is there, if it has the same layers: what is not rendered "
+            "stays.");
     d.param("multipart", &DriverExr::multipart, "A part of its own for each layer.");
     d.param(
         "color_space", &DriverExr::color_space,
@@ -50,6 +58,9 @@ NodeType DriverExr::describe() {
     d.param("custom_attributes", &DriverExr::custom_attributes,
             "Additional header attributes, each \"TYPE name value\" with TYPE one of INT, FLOAT, "
             "STRING, VECTOR2, VECTOR, MATRIX.");
+    d.param("input", &DriverExr::input,
+            "The last of a chain of imagers; the picture is written without their changes.")
+        .pending();
     return d.done();
 }
 
@@ -128,12 +139,30 @@ bool read_attribute(const std::string& text, std::map<std::string, ExrAttribute>
     return true;
 }
 
+/// The channel of an older file that holds what a channel of a new one will.
+const ExrReadChannel* old_channel(const ExrFile& old, const ExrPart& part,
+                                  const ExrChannel& channel) {
+    const ExrReadChannel* found = old.find(channel.name);
+    return found != nullptr ? found : old.find(part.name + "." + channel.name);
+}
+
+/// Widens the data window to hold an older one, too.
+void widen(ExrWriteSpec& spec, const ExrFile& old) {
+    const int right = std::max(spec.data_x + spec.data_width, old.data_x + old.data_width),
+              bottom = std::max(spec.data_y + spec.data_height, old.data_y + old.data_height);
+    spec.data_x = std::min(spec.data_x, old.data_x);
+    spec.data_y = std::min(spec.data_y, old.data_y);
+    spec.data_width = right - spec.data_x;
+    spec.data_height = bottom - spec.data_y;
+}
+
 class ExrDriver final : public Driver {
   public:
     ExrDriver(const DriverExr& node, NodeContext& context)
         : node_(node),
           path_(node.filename.str()),
           where_(context.where("filename")),
+          compression_where_(context.where("compression")),
           space_(context.color_spaces().resolve(
               node.color_space.view(), context.color_spaces().rendering(), context.diagnostics(),
               context.where("color_space"))),
@@ -162,17 +191,24 @@ class ExrDriver final : public Driver {
     [[nodiscard]] const float* stored_pixels(const ImageLayer& layer,
                                              std::span<const float> pixels,
                                              std::vector<float>& converted) const;
+    /// The file that is there, if its pixels can be gone on with.
+    [[nodiscard]] std::optional<ExrFile> old_file(const ExrWriteSpec& spec,
+                                                  Diagnostics& diagnostics) const;
+    void write_around(const ImageHeader& header, const ExrWriteSpec& spec, const ExrFile& old);
+    void write_planes(int x, int y, int width, int height, std::span<const ExrPlane> planes);
+    void keep_exact(const ImageHeader& header, Diagnostics& diagnostics);
     bool report(const InputError& error, Diagnostics& diagnostics) const;
 
     DriverExr node_;
     std::string path_;
-    SourceSpan where_;
+    SourceSpan where_, compression_where_;
     ColorSpace space_;
     ColorConversion conversion_;
     std::map<std::string, ExrAttribute> attributes_;
     std::vector<ImageLayer> layers_;
     std::vector<std::vector<float>> converted_;  ///< one a layer, kept for its memory
     std::unique_ptr<ExrWriter> writer_;
+    std::unique_ptr<ExrCanvas> canvas_;    ///< in place of a writer, with autocrop
     std::unique_ptr<InputError> failure_;  ///< of a write; reported when the file is closed
 };
 
@@ -196,7 +232,7 @@ ExrWriteSpec ExrDriver::make_spec(const ImageHeader& header) const {
     spec.attributes = attributes_;
     spec.attributes.insert(header.metadata.begin(), header.metadata.end());
     for (const ImageLayer& layer : header.layers) {
-        const bool half = node_.half_precision || layer.half;
+        const bool half = (node_.half_precision || layer.half) && !layer.exact;
         const ExrPixelType type = is_uint(layer) ? ExrPixelType::UInt
                                   : half         ? ExrPixelType::Half
                                                  : ExrPixelType::Float;
@@ -226,16 +262,98 @@ bool ExrDriver::names_are_distinct(const ImageHeader& header, Diagnostics& diagn
     return true;
 }
 
+/// Ids would become others if packing them lost a bit.
+void ExrDriver::keep_exact(const ImageHeader& header, Diagnostics& diagnostics) {
+    const bool loses = node_.compression == Compression::Pxr24 ||
+                       node_.compression == Compression::Dwaa ||
+                       node_.compression == Compression::Dwab;
+    const auto exact = std::find_if(header.layers.begin(), header.layers.end(),
+                                    [](const ImageLayer& layer) { return layer.exact; });
+    if (!loses || exact == header.layers.end()) return;
+    diagnostics.warning(Code::InvalidValue,
+                        "\"" + path_ + "\" is packed by zip: the ids of \"" + exact->name +
+                            "\" would not survive a compression with losses",
+                        compression_where_, "choose zip, or give the mattes a file of their own");
+    node_.compression = Compression::Zip;
+}
+
 bool ExrDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
     if (!names_are_distinct(header, diagnostics)) return false;
+    keep_exact(header, diagnostics);
     layers_ = header.layers;
     converted_.assign(layers_.size(), {});
+    ExrWriteSpec spec = make_spec(header);
+    const std::optional<ExrFile> old = node_.append ? old_file(spec, diagnostics) : std::nullopt;
+    if (old) widen(spec, *old);
     try {
-        writer_ = std::make_unique<ExrWriter>(path_, make_spec(header));
+        if (node_.autocrop) {
+            const AtomicFile writable(path_);  // found out before the first ray; removed at once
+            canvas_ = std::make_unique<ExrCanvas>(spec);
+        } else {
+            writer_ = std::make_unique<ExrWriter>(path_, spec);
+        }
+        if (old) write_around(header, spec, *old);
     } catch (const InputError& e) {
         return report(e, diagnostics);
     }
     return true;
+}
+
+std::optional<ExrFile> ExrDriver::old_file(const ExrWriteSpec& spec,
+                                           Diagnostics& diagnostics) const {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path_, ignored)) return std::nullopt;
+    std::string why = "its frame or its layers are others";
+    try {
+        ExrFile old = read_exr(path_);
+        bool same = old.width == spec.width && old.height == spec.height;
+        std::size_t n = 0;
+        for (const ExrPart& part : spec.parts)
+            for (const ExrChannel& channel : part.channels) {
+                const ExrReadChannel* found = old_channel(old, part, channel);
+                same = same && found != nullptr && found->type == channel.type;
+                ++n;
+            }
+        if (same && n == old.channels.size()) return old;
+    } catch (const InputError& e) {
+        why = e.errors()[0].message;
+    }
+    diagnostics.warning(Code::InvalidValue, "\"" + path_ + "\" is written anew: " + why, where_,
+                        "append goes on with files of the same driver and outputs");
+    return std::nullopt;
+}
+
+/// Hands over the old pixels above, below, left and right of what will be rendered.
+void ExrDriver::write_around(const ImageHeader& header, const ExrWriteSpec& spec,
+                             const ExrFile& old) {
+    const int x0 = old.data_x, y0 = old.data_y, x1 = x0 + old.data_width,
+              y1 = y0 + old.data_height;
+    const int left = std::clamp(header.data_x, x0, x1), top = std::clamp(header.data_y, y0, y1);
+    const int right = std::clamp(header.data_x + header.data_width, left, x1);
+    const int bottom = std::clamp(header.data_y + header.data_height, top, y1);
+    const auto hand_over = [&](int ax, int ay, int bx, int by) {
+        if (ax >= bx || ay >= by) return;
+        std::vector<ExrPlane> planes;
+        for (const ExrPart& part : spec.parts)
+            for (const ExrChannel& channel : part.channels)
+                planes.push_back({old_channel(old, part, channel)->pixels.data() +
+                                      static_cast<std::ptrdiff_t>(ay - y0) * old.data_width +
+                                      (ax - x0),
+                                  1, old.data_width});
+        write_planes(ax, ay, bx - ax, by - ay, planes);
+    };
+    hand_over(x0, y0, x1, top);
+    hand_over(x0, bottom, x1, y1);
+    hand_over(x0, top, left, bottom);
+    hand_over(right, top, x1, bottom);
+}
+
+void ExrDriver::write_planes(int x, int y, int width, int height,
+                             std::span<const ExrPlane> planes) {
+    if (canvas_)
+        canvas_->write(x, y, width, height, planes);
+    else
+        writer_->write(x, y, width, height, planes);
 }
 
 const float* ExrDriver::stored_pixels(const ImageLayer& layer, std::span<const float> pixels,
@@ -256,7 +374,7 @@ const float* ExrDriver::stored_pixels(const ImageLayer& layer, std::span<const f
 }
 
 void ExrDriver::write(const Bucket& bucket) {
-    if (!writer_ || failure_) return;
+    if ((!writer_ && !canvas_) || failure_) return;
     std::vector<ExrPlane> planes;
     for (std::size_t l = 0; l < layers_.size(); ++l) {
         const auto n = static_cast<std::ptrdiff_t>(layers_[l].n_channels);
@@ -265,7 +383,7 @@ void ExrDriver::write(const Bucket& bucket) {
             planes.push_back({pixels + c, n, n * bucket.width});
     }
     try {
-        writer_->write(bucket.x, bucket.y, bucket.width, bucket.height, planes);
+        write_planes(bucket.x, bucket.y, bucket.width, bucket.height, planes);
     } catch (const InputError& e) {
         failure_ = std::make_unique<InputError>(e);
         writer_.reset();
@@ -274,9 +392,12 @@ void ExrDriver::write(const Bucket& bucket) {
 
 bool ExrDriver::close(Diagnostics& diagnostics) {
     if (failure_) return report(*failure_, diagnostics);
-    if (!writer_) return false;
+    if (!writer_ && !canvas_) return false;
     try {
-        writer_->close();
+        if (canvas_)
+            canvas_->save(path_);
+        else
+            writer_->close();
     } catch (const InputError& e) {
         writer_.reset();
         return report(e, diagnostics);

@@ -12,6 +12,7 @@ struct DriverPng {
     Name color_space = "auto";
     Format format = Format::Int8;
     bool dither = true, output_padded = false, unpremult_alpha = false, skip_alpha = false;
+    NodeRef input;
 
     static NodeType describe();
     [[nodiscard]] std::unique_ptr<Driver> make_driver(NodeContext& context) const;
@@ -32,6 +33,9 @@ NodeType DriverPng::describe() {
     d.param("unpremult_alpha", &DriverPng::unpremult_alpha,
             "Divides colours by alpha; int8 only.");
     d.param("skip_alpha", &DriverPng::skip_alpha, "Leaves alpha out.");
+    d.param("input", &DriverPng::input,
+            "The last of a chain of imagers; the picture is written without their changes.")
+        .pending();
     return d.done();
 }
 

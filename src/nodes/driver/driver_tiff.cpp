@@ -15,6 +15,7 @@ struct DriverTiff {
     Format format = Format::Int8;
     bool tiled = true, dither = true, output_padded = false, unpremult_alpha = false,
          skip_alpha = false, append = false;
+    NodeRef input;
 
     static NodeType describe();
     [[nodiscard]] std::unique_ptr<Driver> make_driver(NodeContext& context) const;
@@ -40,7 +41,12 @@ NodeType DriverTiff::describe() {
     d.param("unpremult_alpha", &DriverTiff::unpremult_alpha,
             "Divides colours by alpha; int8 only.");
     d.param("skip_alpha", &DriverTiff::skip_alpha, "Leaves alpha out.");
-    d.param("append", &DriverTiff::append, "Goes on with a file that was begun.").pending();
+    d.param(
+        "append", &DriverTiff::append,
+        "Goes on with a file that is there, if it has the same size: what is not rendered stays.");
+    d.param("input", &DriverTiff::input,
+            "The last of a chain of imagers; the picture is written without their changes.")
+        .pending();
     return d.done();
 }
 
@@ -57,6 +63,7 @@ std::unique_ptr<Driver> DriverTiff::make_driver(NodeContext& context) const {
     options.unpremult_alpha = unpremult_alpha;
     options.skip_alpha = skip_alpha;
     options.output_padded = output_padded;
+    options.append = append;
     return std::make_unique<PictureDriver>(filename, color_space, options, context);
 }
 
