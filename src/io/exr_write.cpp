@@ -1,27 +1,12 @@
 #include "io/exr_write.h"
 
-#include <ImfChannelList.h>
-#include <ImfChromaticitiesAttribute.h>
-#include <ImfFloatAttribute.h>
-#include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfIO.h>
-#include <ImfIntAttribute.h>
-#include <ImfMatrixAttribute.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
-#include <ImfPartType.h>
-#include <ImfStandardAttributes.h>
-#include <ImfStringAttribute.h>
-#include <ImfTileDescription.h>
 #include <ImfTiledOutputPart.h>
 
 #include <algorithm>
-#include <bit>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <optional>
 #include <set>
@@ -29,194 +14,37 @@
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/exr_header.h"
 
 namespace lightsieve {
 
 namespace {
 
-namespace exr = OPENEXR_IMF_NAMESPACE;
-using IMATH_NAMESPACE::Box2i;
-using IMATH_NAMESPACE::V2f;
 using IMATH_NAMESPACE::V2i;
 
-constexpr float kHalfMax = 65504.0F;
 constexpr int kMaxTileSize = 4096;
-/// Header attributes that OpenEXR writes itself.
-const std::set<std::string> kReserved = {"channels",
-                                         "compression",
-                                         "dataWindow",
-                                         "displayWindow",
-                                         "lineOrder",
-                                         "pixelAspectRatio",
-                                         "screenWindowCenter",
-                                         "screenWindowWidth",
-                                         "tiles",
-                                         "name",
-                                         "type",
-                                         "version",
-                                         "chunkCount",
-                                         "chromaticities",
-                                         "view",
-                                         "maxSamplesPerPixel"};
-
-[[noreturn]] void refuse(const std::string& path, const std::string& why,
-                         const std::string& hint) {
-    throw InputError(Error{Code::FileUnwritable,
-                           "cannot write \"" + path + "\": " + why,
-                           {},
-                           hint,
-                           {},
-                           Severity::Error});
-}
-
-/// Runs `body`; what OpenEXR throws becomes an InputError about `path`.
-template <class Body>
-void guarded(const std::string& path, const Body& body) {
-    try {
-        body();
-    } catch (const InputError&) {
-        throw;
-    } catch (const std::exception& e) {
-        refuse(path, e.what(), "check the free space of the disk and the channels' names");
-    }
-}
-
-/// A stream that remembers failures: OpenEXR's own file class writes the index of tiles in its destructor, where an
-/// error would be lost.
-class FileStream final : public exr::OStream {
-  public:
-    explicit FileStream(const std::string& path)
-        : OStream(path.c_str()), file_(std::fopen(path.c_str(), "wb")) {
-        if (file_ == nullptr) throw std::runtime_error(std::strerror(errno));
-    }
-    ~FileStream() override {
-        if (file_ != nullptr) std::fclose(file_);
-    }
-    FileStream(const FileStream&) = delete;
-    FileStream& operator=(const FileStream&) = delete;
-
-    void write(const char c[], int n) override {
-        if (n <= 0) return;
-        if (std::fwrite(c, 1, static_cast<std::size_t>(n), file_) != static_cast<std::size_t>(n))
-            fail();
-    }
-    std::uint64_t tellp() override { return static_cast<std::uint64_t>(ftello(file_)); }
-    void seekp(std::uint64_t pos) override {
-        if (fseeko(file_, static_cast<off_t>(pos), SEEK_SET) != 0) fail();
-    }
-    /// Flushes and closes. Throws if any write failed, also one in a destructor of OpenEXR.
-    void finish() {
-        const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
-        if (error_ == 0 && !closed) error_ = errno;
-        if (error_ != 0) throw std::runtime_error(std::strerror(error_));
-    }
-
-  private:
-    [[noreturn]] void fail() {
-        if (error_ == 0) error_ = errno;
-        throw std::runtime_error(std::strerror(error_));
-    }
-    std::FILE* file_;
-    int error_ = 0;
-};
-
-exr::PixelType exr_type(ExrPixelType type) {
-    switch (type) {
-        case ExrPixelType::Half: return exr::HALF;
-        case ExrPixelType::Float: return exr::FLOAT;
-        case ExrPixelType::UInt: return exr::UINT;
-    }
-    return exr::FLOAT;
-}
 
 std::size_t value_size(ExrPixelType type) {
     return type == ExrPixelType::Half ? sizeof(half) : sizeof(float);
 }
 
-exr::Compression exr_compression(ExrCompression compression) {
-    switch (compression) {
-        case ExrCompression::None: return exr::NO_COMPRESSION;
-        case ExrCompression::Rle: return exr::RLE_COMPRESSION;
-        case ExrCompression::Zip: return exr::ZIP_COMPRESSION;
-        case ExrCompression::Zips: return exr::ZIPS_COMPRESSION;
-        case ExrCompression::Piz: return exr::PIZ_COMPRESSION;
-        case ExrCompression::Pxr24: return exr::PXR24_COMPRESSION;
-        case ExrCompression::B44: return exr::B44_COMPRESSION;
-        case ExrCompression::B44a: return exr::B44A_COMPRESSION;
-        case ExrCompression::Dwaa: return exr::DWAA_COMPRESSION;
-        case ExrCompression::Dwab: return exr::DWAB_COMPRESSION;
-    }
-    return exr::ZIP_COMPRESSION;
-}
-
-void add_attribute(exr::Header& header, const std::string& name, const ExrAttribute& value) {
-    if (kReserved.contains(name))
-        throw std::runtime_error("the header attribute \"" + name + "\" cannot be chosen");
-    if (const int* i = std::get_if<int>(&value)) header.insert(name, exr::IntAttribute(*i));
-    if (const float* f = std::get_if<float>(&value)) header.insert(name, exr::FloatAttribute(*f));
-    if (const std::string* s = std::get_if<std::string>(&value))
-        header.insert(name, exr::StringAttribute(*s));
-    if (const std::vector<float>* v = std::get_if<std::vector<float>>(&value)) {
-        if (v->size() == 16) {
-            IMATH_NAMESPACE::M44f m;
-            std::copy(v->begin(), v->end(), m.getValue());
-            header.insert(name, exr::M44fAttribute(m));
-        } else {
-            header.insert(name, exr::FloatVectorAttribute(*v));
-        }
-    }
-}
-
-exr::Chromaticities exr_chromaticities(Primaries primaries) {
-    const Chromaticities c = chromaticities(primaries);
-    const auto point = [](double x, double y) {
-        return V2f(static_cast<float>(x), static_cast<float>(y));
-    };
-    return {point(c.red_x, c.red_y), point(c.green_x, c.green_y), point(c.blue_x, c.blue_y),
-            point(c.white_x, c.white_y)};
-}
-
-exr::Header make_header(const ExrWriteSpec& spec, const ExrPart& part) {
-    const Box2i display(V2i(0, 0), V2i(spec.width - 1, spec.height - 1));
-    const Box2i data(V2i(spec.data_x, spec.data_y),
-                     V2i(spec.data_x + spec.data_width - 1, spec.data_y + spec.data_height - 1));
-    // Tiles are stored as they come: random order is what lets them be written at once.
-    exr::Header header(display, data, spec.pixel_aspect_ratio, V2f(0, 0), 1,
-                       spec.tiled ? exr::RANDOM_Y : exr::INCREASING_Y,
-                       exr_compression(spec.compression));
-    if (spec.tiled) {
-        const auto size = static_cast<unsigned>(spec.tile_size);
-        header.setTileDescription(exr::TileDescription(size, size, exr::ONE_LEVEL));
-    }
-    header.setType(spec.tiled ? exr::TILEDIMAGE : exr::SCANLINEIMAGE);
-    if (spec.parts.size() > 1) header.setName(part.name);
-    exr::addChromaticities(header, exr_chromaticities(spec.primaries));
-    for (const ExrChannel& channel : part.channels) {
-        if (header.channels().findChannel(channel.name) != nullptr)
-            throw std::runtime_error("two channels are named \"" + channel.name + "\"");
-        header.channels().insert(channel.name, exr::Channel(exr_type(channel.type)));
-    }
-    for (const auto& [name, value] : spec.attributes)
-        add_attribute(header, name, value);
-    return header;
-}
-
 void check_spec(const std::string& path, const ExrWriteSpec& spec) {
     const bool sized =
         spec.width > 0 && spec.height > 0 && spec.data_width > 0 && spec.data_height > 0;
-    if (!sized) refuse(path, "the picture is empty", "choose a larger resolution or region");
+    if (!sized) refuse_exr(path, "the picture is empty", "choose a larger resolution or region");
     if (spec.tile_size < 1 || spec.tile_size > kMaxTileSize)
-        refuse(path, "tiles of " + std::to_string(spec.tile_size) + " pixels",
-               "choose a bucket_size from 1 to " + std::to_string(kMaxTileSize));
+        refuse_exr(path, "tiles of " + std::to_string(spec.tile_size) + " pixels",
+                   "choose a bucket_size from 1 to " + std::to_string(kMaxTileSize));
     std::set<std::string> names;
     for (const ExrPart& part : spec.parts) {
         if (part.channels.empty())
-            refuse(path, "a part has no channels", "give the driver an output");
+            refuse_exr(path, "a part has no channels", "give the driver an output");
         if (!names.insert(part.name).second)
-            refuse(path, "two parts are named \"" + part.name + "\"",
-                   "give one of the outputs a layer name");
+            refuse_exr(path, "two parts are named \"" + part.name + "\"",
+                       "give one of the outputs a layer name");
     }
-    if (spec.parts.empty()) refuse(path, "there is nothing to write", "give the driver an output");
+    if (spec.parts.empty())
+        refuse_exr(path, "there is nothing to write", "give the driver an output");
 }
 
 /// A tile, or a band of rows: the unit in which OpenEXR takes pixels.
@@ -351,9 +179,9 @@ struct ExrWriter::State {
     std::vector<ExrPixelType> types;        ///< of all channels, part after part
     std::vector<std::size_t> pixel_offset;  ///< bytes of the channels before, for one pixel
     std::size_t bytes_per_pixel = 0;
-    std::map<int, Block> pending;      ///< begun, by number
-    std::vector<bool> written;         ///< by number
-    std::optional<FileStream> stream;  ///< outlives `output`
+    std::map<int, Block> pending;         ///< begun, by number
+    std::vector<bool> written;            ///< by number
+    std::optional<ExrFileStream> stream;  ///< outlives `output`
     std::unique_ptr<exr::MultiPartOutputFile> output;
 };
 
@@ -361,10 +189,10 @@ ExrWriter::ExrWriter(const std::string& path, ExrWriteSpec spec) {
     check_spec(path, spec);
     state_ = std::make_unique<State>(path, std::move(spec));
     State& s = *state_;
-    guarded(path, [&s] {
+    guarded_exr(path, [&s] {
         std::vector<exr::Header> headers;
         for (const ExrPart& part : s.spec.parts)
-            headers.push_back(make_header(s.spec, part));
+            headers.push_back(make_exr_header(s.spec, part));
         s.stream.emplace(s.file.temporary());
         s.output = std::make_unique<exr::MultiPartOutputFile>(*s.stream, headers.data(),
                                                               static_cast<int>(headers.size()));
@@ -382,7 +210,7 @@ void ExrWriter::write(int x, int y, int width, int height, std::span<const ExrPl
     const Rect rect{std::max(left, 0), std::max(top, 0), std::min(left + width, s.spec.data_width),
                     std::min(top + height, s.spec.data_height)};
     if (rect.x0 >= rect.x1 || rect.y0 >= rect.y1) return;
-    guarded(s.file.path(), [&] {
+    guarded_exr(s.file.path(), [&] {
         for (int by = rect.y0 / s.block_height; by <= (rect.y1 - 1) / s.block_height; ++by) {
             for (int bx = rect.x0 / s.block_width; bx <= (rect.x1 - 1) / s.block_width; ++bx) {
                 const int index = by * s.n_across + bx;
@@ -399,7 +227,7 @@ void ExrWriter::write(int x, int y, int width, int height, std::span<const ExrPl
 
 void ExrWriter::close() {
     State& s = *state_;
-    guarded(s.file.path(), [&s] {
+    guarded_exr(s.file.path(), [&s] {
         for (int index = 0; index < s.n_across * s.n_down; ++index) {
             if (s.written[static_cast<std::size_t>(index)]) continue;
             const auto it = s.pending.find(index);

@@ -20,7 +20,7 @@ struct DataAov {
 };
 
 /// AOVs that are no light path expressions, with the types that they can be written as.
-constexpr std::array<DataAov, 11> kDataAovs{{
+constexpr std::array<DataAov, 17> kDataAovs{{
     {"Z", LayerSource::Depth, {"FLOAT", "", ""}},
     {"N", LayerSource::Normal, {"VECTOR", "RGB", ""}},
     {"P", LayerSource::Position, {"VECTOR", "RGB", ""}},
@@ -32,6 +32,12 @@ constexpr std::array<DataAov, 11> kDataAovs{{
     {"shadow", LayerSource::Shadow, {"RGB", "FLOAT", ""}},
     {"shadow_diff", LayerSource::ShadowDifference, {"RGB", "FLOAT", ""}},
     {"shadow_mask", LayerSource::ShadowMask, {"RGB", "FLOAT", ""}},
+    {"Pref", LayerSource::Pref, {"VECTOR", "RGB", ""}},
+    {"raycount", LayerSource::RayCount, {"FLOAT", "", ""}},
+    {"cputime", LayerSource::CpuTime, {"FLOAT", "", ""}},
+    {"AA_inv_density", LayerSource::InverseDensity, {"FLOAT", "", ""}},
+    {"clamp_loss", LayerSource::ClampLoss, {"RGB", "FLOAT", ""}},
+    {"unclamped", LayerSource::Unclamped, {"RGB", "FLOAT", ""}},
 }};
 
 constexpr std::array<std::string_view, 8> kTypes{"RGB",  "RGBA", "FLOAT",  "INT",
@@ -85,9 +91,9 @@ std::string listed(const std::vector<std::string>& names) {
     return out;
 }
 
-/// Channels of a layer of an AOV type.
-std::size_t n_channels_of(std::string_view type) {
-    return type == "RGBA" ? 4 : type == "RGB" || type == "VECTOR" ? 3 : type == "VECTOR2" ? 2 : 1;
+/// The layer of a matte that holds its ids number 2 * index and 2 * index + 1.
+std::string matte_layer(const std::string& matte, int index) {
+    return matte + (index < 10 ? "0" : "") + std::to_string(index);
 }
 
 class Planner {
@@ -194,6 +200,11 @@ class Planner {
         std::vector<std::string> others = data_aov_names();
         for (const Name name : input_.written)
             others.push_back(name.str());
+        for (const Matte& matte : plan_.mattes) {
+            others.push_back(matte.name.str());
+            for (int i = 0; i < matte.n_layers; ++i)
+                others.push_back(matte_layer(matte.name.str(), i));
+        }
         const lpe::AovNames known{
             table_, {input_.light_groups.begin(), input_.light_groups.end()}, std::move(others)};
         std::vector<lpe::ResolvedOutput> resolved;
@@ -271,11 +282,77 @@ class Planner {
         return true;
     }
 
+    /// A matte's layers in an EXR file, its preview in others; or one of its layers, asked for by name.
+    bool plan_matte(const OutputString& output, const PlannedLayer& base) {
+        for (std::uint32_t m = 0; m < plan_.mattes.size(); ++m) {
+            const Matte& matte = plan_.mattes[m];
+            if (output.aov == matte.name.str()) {
+                plan_whole_matte(output, base, m);
+                return true;
+            }
+            for (int i = 0; i < matte.n_layers; ++i)
+                if (output.aov == matte_layer(matte.name.str(), i)) {
+                    add_matte_layer(output, base, m, i);
+                    return true;
+                }
+        }
+        return false;
+    }
+
+    void plan_whole_matte(const OutputString& output, const PlannedLayer& base, std::uint32_t m) {
+        const Matte& matte = plan_.mattes[m];
+        plan_.wants_mattes = true;
+        const NodeInstance* driver = plan_.drivers[base.driver].node;
+        const bool holds_layers = driver == nullptr || driver->type().name == Name("driver_exr");
+        const NodeInstance* filter = plan_.views[base.view].node;
+        const bool* noop = filter == nullptr ? nullptr : filter->find<bool>("noop");
+        if (!holds_layers || (matte.preview_in_file && (noop == nullptr || !*noop))) {
+            PlannedLayer preview = base;
+            preview.info.name = output.layer.empty() ? output.aov : output.layer;
+            preview.info.aov = output.aov;
+            preview.source = LayerSource::MattePreview;
+            preview.aov = m;
+            plan_.layers.push_back(std::move(preview));
+        }
+        if (!holds_layers) return;
+        for (int i = 0; i < matte.n_layers; ++i) {
+            OutputString layer = output;
+            layer.aov = matte_layer(output.aov, i);
+            if (!output.layer.empty()) layer.layer = matte_layer(output.layer, i);
+            // Scenes that Arnold wrote out again name the layers, too.
+            const bool is_named =
+                std::any_of(outputs_.begin(), outputs_.end(), [&](const OutputString& other) {
+                    return other.aov == layer.aov && other.driver == layer.driver &&
+                           other.camera == layer.camera;
+                });
+            if (!is_named) add_matte_layer(layer, base, m, i);
+        }
+    }
+
+    void add_matte_layer(const OutputString& output, const PlannedLayer& base, std::uint32_t m,
+                         int index) {
+        plan_.wants_mattes = true;
+        PlannedLayer layer = base;
+        layer.info.name = output.layer.empty() ? output.aov : output.layer;
+        layer.info.aov = output.aov;
+        layer.info.aov_type = "FLOAT";
+        layer.info.n_channels = 4;
+        layer.info.is_color = layer.info.half = false;
+        layer.info.exact = true;
+        layer.source = LayerSource::Matte;
+        layer.aov = m;
+        layer.rank = static_cast<std::uint32_t>(2 * index);
+        const NodeInstance* filter = plan_.views[base.view].node;
+        const auto* rank = filter == nullptr ? nullptr : filter->find<std::int32_t>("rank");
+        if (rank != nullptr && *rank >= 0) layer.rank = static_cast<std::uint32_t>(*rank);
+        plan_.layers.push_back(std::move(layer));
+    }
+
     void plan_data(const OutputString& output, const PlannedLayer& base) {
         const auto data = std::find_if(kDataAovs.begin(), kDataAovs.end(),
                                        [&](const DataAov& d) { return d.name == output.aov; });
         if (data == kDataAovs.end()) {
-            (void)plan_written(output, base);
+            if (!plan_matte(output, base)) (void)plan_written(output, base);
             return;
         }
         if (std::find(data->types.begin(), data->types.end(), output.type) == data->types.end()) {
@@ -289,8 +366,12 @@ class Planner {
         PlannedLayer planned = base;
         planned.info.name = output.layer.empty() ? output.aov : output.layer;
         planned.info.aov = output.aov;
-        planned.info.is_color = false;
+        planned.info.is_color =
+            data->source == LayerSource::ClampLoss || data->source == LayerSource::Unclamped;
         planned.source = data->source;
+        plan_.wants_beauty |= planned.info.is_color;
+        plan_.wants_cost |= data->source == LayerSource::CpuTime;
+        plan_.wants_pref |= data->source == LayerSource::Pref;
         plan_.layers.push_back(std::move(planned));
     }
 
@@ -425,10 +506,14 @@ class Planner {
 class PartitionFinder {
   public:
     PartitionFinder(const AovPlan& plan, std::size_t driver, std::span<const Event> events)
-        : plan_(plan), events_(events) {
+        : plan_(plan), driver_(driver), events_(events) {
         for (const std::uint32_t index : plan.drivers[driver].layers) {
             const PlannedLayer& layer = plan.layers[index];
-            if (layer.expr != nullptr && layer.info.n_channels >= 3) layers_.push_back(&layer);
+            const PixelFilter* filter = plan.views[layer.view].filter.get();
+            const bool adds_up =
+                filter != nullptr && keeps_sums(filter->reduction()) && !filter->shows_heat();
+            if (layer.expr != nullptr && layer.info.n_channels >= 3 && adds_up)
+                layers_.push_back(&layer);
         }
     }
 
@@ -448,10 +533,34 @@ class PartitionFinder {
             }
             layers_ = std::move(others);
         }
+        find_clamps();
         return std::move(found_);
     }
 
   private:
+    /// What clamps took away and what they left is what there was: not by a proof, but by how it is stored.
+    void find_clamps() {
+        const auto layers_of = [&](LayerSource source) {
+            std::vector<const PlannedLayer*> out;
+            for (const std::uint32_t index : plan_.drivers[driver_].layers)
+                if (plan_.layers[index].source == source &&
+                    plan_.layers[index].info.n_channels >= 3)
+                    out.push_back(&plan_.layers[index]);
+            return out;
+        };
+        for (const PlannedLayer* whole : layers_of(LayerSource::Unclamped))
+            for (const PlannedLayer* beauty : layers_of(LayerSource::Beauty))
+                for (const PlannedLayer* loss : layers_of(LayerSource::ClampLoss)) {
+                    const auto alike = [&](const PlannedLayer& l) {
+                        return l.view == whole->view && l.pass == whole->pass;
+                    };
+                    if (alike(*beauty) && alike(*loss) &&
+                        keeps_sums(plan_.views[whole->view].filter->reduction()))
+                        found_.push_back(whole->info.name + " = " + beauty->info.name + " + " +
+                                         loss->info.name);
+                }
+    }
+
     /// Sums that are claimed for one layer at most.
     static constexpr std::size_t kMaxSums = 4;
 
@@ -483,12 +592,18 @@ class PartitionFinder {
     }
 
     const AovPlan& plan_;
+    std::size_t driver_;
     std::span<const Event> events_;
     std::vector<const PlannedLayer*> layers_;
     std::vector<std::string> found_;
 };
 
 }  // namespace
+
+std::size_t n_channels_of(std::string_view aov_type) {
+    if (aov_type == "RGBA") return 4;
+    return aov_type == "RGB" || aov_type == "VECTOR" ? 3 : aov_type == "VECTOR2" ? 2 : 1;
+}
 
 std::vector<std::string> data_aov_names() {
     std::vector<std::string> out;

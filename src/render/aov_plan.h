@@ -16,6 +16,7 @@
 #include "lpe/program.h"
 #include "render/render.h"
 #include "scene/camera.h"
+#include "scene/cryptomatte.h"
 #include "scene/driver.h"
 #include "scene/pixel_filter.h"
 
@@ -39,24 +40,38 @@ enum class LayerSource : std::uint8_t {
     ShadowMask,        ///< of shadow_matte: how much light is missing in all
     Id,                ///< ID: the shape's id or a hash of its name
     Uv,                ///< uv
+    Pref,              ///< Pref: the point before it was deformed
+    RayCount,          ///< raycount: rays that the pixel took
+    CpuTime,           ///< cputime: what it took [microseconds]
+    InverseDensity,    ///< AA_inv_density: one over the number of camera samples
+    ClampLoss,         ///< clamp_loss: what clamps took away
+    Unclamped,         ///< unclamped: the beauty with it
     Written,           ///< what shaders write (aov_write_rgb)
+    Matte,             ///< two ids of a matte and what they cover
+    MattePreview,      ///< a matte in colours
     Black,             ///< an expression with an error, under abort_on_error off
 };
 
 /// Whether the layer's values are sums of light.
 [[nodiscard]] constexpr bool is_light(LayerSource source) {
     return source == LayerSource::Beauty || source == LayerSource::Expression ||
+           source == LayerSource::ClampLoss || source == LayerSource::Unclamped ||
            source == LayerSource::Black;
 }
 
 /// Names of the AOVs that are no light path expressions.
 [[nodiscard]] std::vector<std::string> data_aov_names();
 
+/// Channels of a layer of an AOV type.
+[[nodiscard]] std::size_t n_channels_of(std::string_view aov_type);
+
 /// One layer of one file.
 struct PlannedLayer {
     ImageLayer info;
     LayerSource source = LayerSource::Beauty;
-    std::uint32_t aov = 0;   ///< for Expression: index of the request; for Written: its number
+    std::uint32_t aov =
+        0;  ///< for Expression: index of the request; for Written and mattes: its number
+    std::uint32_t rank = 0;  ///< for Matte: of the first of the two ids
     std::uint32_t view = 0;  ///< filter view
     std::uint32_t pass = 0;
     std::uint32_t driver = 0;
@@ -96,10 +111,15 @@ struct AovPlan {
     bool wants_probes = false;  ///< some expression can take an albedo probe
     bool wants_beauty = false;
     std::optional<std::size_t> adaptive_layer;  ///< whose noise asks for samples; else the beauty
+    bool wants_mattes = false;                  ///< some layer shows one
+    bool wants_cost = false;                    ///< some layer shows time
+    bool wants_pref = false;                    ///< some layer shows Pref
+    bool wants_deep = false;                    ///< some driver writes deep pixels
     lpe::BuiltinTable table = lpe::BuiltinTable::Reference;  ///< which built-ins the scene uses
     std::vector<std::string> light_groups;  ///< named groups of the scene's lights
     std::vector<lpe::NamedExpr> custom;     ///< expressions that the scene and the caller define
     std::vector<Name> written;              ///< AOVs that shaders write, by number
+    std::vector<Matte> mattes;  ///< that shaders write, by number; known before layers are planned
 };
 
 /// An output string cut into its parts.

@@ -38,7 +38,7 @@ void CameraSampler::weights(const CameraSample& sample, std::vector<float>& out)
     const float density = main.filter->pdf(sample.offset);
     for (std::size_t i = 0; i < out.size(); ++i) {
         const FilterView& view = scene_.plan.views[pass_.views[i]];
-        if (view.filter->closest()) {
+        if (keeps_one_sample(view.filter->reduction())) {
             out[i] = 1;
         } else if (!view.is_signed && pass_.views[i] == pass_.sampling_view) {
             out[i] = 1;  // by construction, without the rounding of the quotient

@@ -74,6 +74,7 @@ ScenePtr Compiler::run() {
     read_shutter();
     make_lights();
     make_shapes();
+    shapes_are_known_ = true;
     make_background();
     make_atmosphere();
     make_aov_shaders();

@@ -11,8 +11,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Driver node types by file extension, for `-o picture.png`.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kDriverOfExtension{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kDriverOfExtension{
     {{".exr", "driver_exr"},
+     {".jpg", "driver_jpeg"},
+     {".jpeg", "driver_jpeg"},
      {".png", "driver_png"},
      {".tif", "driver_tiff"},
      {".tiff", "driver_tiff"}}};
@@ -80,6 +82,15 @@ bool has_negative_lobes(const PixelFilter& filter) {
     return false;
 }
 
+bool is_deep(const PlannedDriver& driver) {
+    return driver.node != nullptr && driver.node->type().name == Name("driver_deepexr");
+}
+
+/// Depth and alpha are in every deep file, whoever asks for them.
+bool is_always_deep(const PlannedLayer& layer) {
+    return layer.source == LayerSource::Depth || layer.source == LayerSource::Alpha;
+}
+
 }  // namespace
 
 /// What need not be traced. Clamps and adaptive sampling look at all light, be it asked for or not: with them AOVs would be
@@ -128,6 +139,33 @@ void Compiler::find_adaptive_layer() {
                          nearest.empty() ? "the noise of the beauty decides" : nearest);
 }
 
+/// Deep files hold light, of one camera.
+void Compiler::check_deep(PlannedDriver& planned) {
+    const AovPlan& plan = scene_->plan;
+    std::erase_if(planned.layers,
+                  [&](std::uint32_t layer) { return is_always_deep(plan.layers[layer]); });
+    const SourceSpan where = planned.node->where();
+    const auto refuse = [&](const std::string& what, const std::string& hint) {
+        diagnostics_.error(
+            Code::OutputLayers,
+            "the deep file of \"" + planned.node->name().str() + "\" cannot hold " + what, where,
+            hint);
+    };
+    if (planned.layers.empty())
+        return refuse("depth and alpha alone", "add an output of light, RGBA for example");
+    for (const std::uint32_t index : planned.layers) {
+        const PlannedLayer& layer = plan.layers[index];
+        const bool has_depth = layer.source == LayerSource::Beauty ||
+                               layer.source == LayerSource::Expression ||
+                               layer.source == LayerSource::Black;
+        if (!has_depth)
+            return refuse("\"" + layer.info.aov + '"',
+                          "light path expressions, Z and A are possible");
+        if (layer.pass != plan.layers[planned.layers[0]].pass)
+            return refuse("what two cameras see", "give each camera a driver of its own");
+    }
+}
+
 void Compiler::make_views() {
     for (FilterView& view : scene_->plan.views) {
         const NodeType* type =
@@ -145,7 +183,11 @@ void Compiler::make_views() {
         const FilterView& view = scene_->plan.views[layer.view];
         layer.info.filter =
             view.node != nullptr ? view.node->type().name.str() : "gaussian_filter";
-        if (view.filter) layer.info.filter_width = 2 * view.filter->radius();
+        if (!view.filter) continue;
+        layer.info.filter_width = 2 * view.filter->radius();
+        if (!view.filter->shows_heat()) continue;
+        layer.info.n_channels = std::max<std::size_t>(layer.info.n_channels, 3);
+        layer.info.is_color = false;
     }
 }
 
@@ -165,20 +207,31 @@ void Compiler::part_passes() {
         // The filter that places the samples: the beauty's, else the first that is a mean, else the first.
         const PlannedLayer* main = nullptr;
         const auto rank = [&](const PlannedLayer& l) {
-            return plan.views[l.view].filter->closest() ? 0
-                   : l.source == LayerSource::Beauty    ? 2
-                                                        : 1;
+            if (plan.views[l.view].filter->reduction() != Reduction::Mean) return 0;
+            return l.source == LayerSource::Beauty ? 2 : 1;
         };
         for (const PlannedLayer& layer : plan.layers)
             if (layer.pass == p && (main == nullptr || rank(layer) > rank(*main))) main = &layer;
         if (main == nullptr) continue;
         const std::uint32_t sampling = main->view;
+        // The layers of a deep file share their samples, and so their weights.
+        for (PlannedLayer& layer : plan.layers)
+            if (layer.pass == p && is_deep(plan.drivers[layer.driver])) {
+                layer.view = plan.layers[plan.drivers[layer.driver].layers[0]].view;
+                if (plan.views[layer.view].filter->reduction() != Reduction::Mean)
+                    layer.view = sampling;
+            }
         plan.passes[p].sampling_view = sampling;
         add_view(plan.passes[p], sampling);
         for (PlannedLayer& layer : plan.layers) {
             if (layer.pass != p) continue;
+            // One sample makes no mask, nor do differences.
+            const bool is_matte =
+                layer.source == LayerSource::Matte || layer.source == LayerSource::MattePreview;
+            if (is_matte && plan.views[layer.view].filter->reduction() != Reduction::Mean)
+                layer.view = sampling;
             const PixelFilter& filter = *plan.views[layer.view].filter;
-            if (filter.closest() || layer.view == sampling ||
+            if (filter.reduction() != Reduction::Mean || layer.view == sampling ||
                 filter.radius() <= plan.views[sampling].filter->radius()) {
                 add_view(plan.passes[p], layer.view);
                 continue;
@@ -217,9 +270,10 @@ void Compiler::make_driver(PlannedDriver& planned, std::size_t index) {
     if (to_picture) {
         const std::string_view wanted = driver_for(options_.output);
         if (wanted.empty()) {
-            return diagnostics_.error(
-                Code::OutputBad, "no driver writes \"" + options_.output + '"', {},
-                ".exr, .png, .tif and .tiff are known; a name without extension is a folder");
+            return diagnostics_.error(Code::OutputBad,
+                                      "no driver writes \"" + options_.output + '"', {},
+                                      ".exr, .png, .jpg, .tif and .tiff are known; a name without "
+                                      "extension is a folder");
         }
         if (type->name != Name(wanted)) {
             type = graph_.registry().find(wanted);
@@ -250,8 +304,13 @@ void Compiler::make_driver(PlannedDriver& planned, std::size_t index) {
         *this, planned.node,
         planned.node != nullptr ? planned.node->name() : Name("<default driver>"));
     planned.driver = type->make_driver(copy.data(), context);
-    const bool one_layer_only =
-        type->name == Name("driver_png") || type->name == Name("driver_tiff");
+    if (planned.driver && planned.driver->deep()) {
+        scene_->plan.wants_deep = true;
+        check_deep(planned);
+    }
+    const bool one_layer_only = type->name == Name("driver_png") ||
+                                type->name == Name("driver_jpeg") ||
+                                type->name == Name("driver_tiff");
     if (one_layer_only && planned.layers.size() > 1) {
         const SourceSpan where = planned.node != nullptr ? planned.node->where() : SourceSpan{};
         diagnostics_.error(Code::DriverConflict,

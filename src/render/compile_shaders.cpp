@@ -49,6 +49,7 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
         type, first != nullptr ? first->block() : static_cast<const std::byte*>(node.block()));
     ShaderProgram* out = program.get();
     out->labels = wanted;
+    out->name = node.name();
     if (first != nullptr) {
         // Only labels differ: what was loaded and reported once is taken over.
         out->share_links(*first);
@@ -246,16 +247,6 @@ float Compiler::frame_number() const {
     const float* frame =
         graph_.options() == nullptr ? nullptr : graph_.options()->find<float>("frame");
     return frame == nullptr ? 1 : *frame;
-}
-
-void Compiler::make_aov_shaders() {
-    const auto* refs = graph_.options() == nullptr
-                           ? nullptr
-                           : graph_.options()->find<Array<NodeRef>>("aov_shaders");
-    if (refs == nullptr) return;
-    for (const NodeRef& ref : refs->first_key())
-        if (const ShaderProgram* program = ref ? program_for(*ref.node) : nullptr)
-            scene_->aov_shaders.push_back(program);
 }
 
 std::vector<Name> CompileContext::user_texts(Name attribute) {

@@ -46,6 +46,8 @@ class Compiler {
     void keep(std::shared_ptr<const void> data) { scene_->kept.push_back(std::move(data)); }
     [[nodiscard]] float frame_number() const;
     [[nodiscard]] std::uint32_t written_aov(Name aov);
+    [[nodiscard]] std::uint32_t add_matte(const NodeInstance* by, const Matte& matte);
+    void for_each_shape(const std::function<void(const PlacedShape&)>& body) const;
     /// A colour parameter of a node that is no shader, with its links.
     [[nodiscard]] ColorInput linked_color(const NodeInstance& node, const ParamInfo& param);
     /// Geometry of a shape that is not an instance; null with an error reported.
@@ -85,7 +87,10 @@ class Compiler {
     const ShaderProgram* default_shader(const std::string& object_label);
     void make_background();
     void make_atmosphere();
+
+    // compile_mattes.cpp
     void make_aov_shaders();
+    [[nodiscard]] bool wants_default_mattes() const;
 
     // compile_shapes.cpp
     void make_shapes();
@@ -157,6 +162,7 @@ class Compiler {
     void make_drivers();
     void make_driver(PlannedDriver& planned, std::size_t index);
     void check_files();
+    void check_deep(PlannedDriver& planned);
 
     // compile_accel.cpp
     void make_accels();
@@ -188,6 +194,7 @@ class Compiler {
     std::set<ShaderProgram*> surface_shaders_;  ///< shaders that shapes use: these make events
     std::map<Event, std::uint32_t> event_index_;
     std::vector<Name> written_aovs_;  ///< AOVs that shaders write, by number
+    bool shapes_are_known_ = false;   ///< all of them are placed
 };
 
 /// What a node may ask of the compiler.
@@ -209,6 +216,12 @@ class CompileContext final : public NodeContext {
     void keep(std::shared_ptr<const void> data) override { compiler_.keep(std::move(data)); }
     float frame_number() const override { return compiler_.frame_number(); }
     std::uint32_t written_aov(Name aov) override { return compiler_.written_aov(aov); }
+    std::uint32_t add_matte(const Matte& matte) override {
+        return compiler_.add_matte(node_, matte);
+    }
+    void for_each_shape(const std::function<void(const PlacedShape&)>& body) override {
+        compiler_.for_each_shape(body);
+    }
     const NodeInstance* camera() override { return compiler_.default_camera(); }
     TextureCache& textures() override { return compiler_.textures(); }
     const ColorSpaces& color_spaces() const override { return compiler_.color_spaces(); }

@@ -1,6 +1,7 @@
 #include "render/integrator.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -52,12 +53,28 @@ template <class Tracker>
 void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
                                 const Mat4f& camera_from_world, const Sampler& sampler,
                                 SampleBuffer& out) {
+    const std::uint64_t rays = counts.rays;
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = scene_.plan.wants_cost ? Clock::now() : Clock::time_point{};
+    trace_path(camera_ray, time, camera_from_world, sampler, out);
+    out.rays = static_cast<float>(counts.rays - rays);
+    if (scene_.plan.wants_cost)
+        out.microseconds = std::chrono::duration<float, std::micro>(Clock::now() - start).count();
+}
+
+template <class Tracker>
+void Integrator<Tracker>::trace_path(const CameraRay& camera_ray, float time,
+                                     const Mat4f& camera_from_world, const Sampler& sampler,
+                                     SampleBuffer& out) {
     // The camera event: one share of throughput.
     path_.sampler = sampler;
     out_ = &out;
+    out.deep = scene_.plan.wants_deep;
     out.clear();
     out.written.resize(scene_.plan.written.size(), {kBlack, 0});
     written_.resize(scene_.plan.written.size());
+    mattes_.resize(scene_.plan.wants_mattes ? scene_.plan.mattes.size() : 0);
+    writes_aovs_ = false;
     if (!(camera_ray.weight > 0)) return;  // the camera sees nothing there
     path_.start = Color::grey(camera_ray.weight);
     path_.groups.start(path_.start);
@@ -69,6 +86,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
     path_.segment = 0;
     path_.n_scatter = path_.n_transparent = 0;
     path_.siblings = 1;
+    path_.slot = 0;
     path_.monochromatic = path_.exit_pending = knows_first_ = false;
     path_.fans_out = true;
     path_.state = state;
@@ -84,6 +102,7 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
         const Fork& fork = forks_[--n_forks_];
         path_ = fork.path;
         tracker_.restore(fork.terms);
+        out_->slot = path_.slot;
         follow(fork.ray, camera_from_world);
     }
 }
@@ -157,6 +176,7 @@ auto Integrator<Tracker>::arrive(Surface& surface, Ray& ray, const Mat4f& camera
     }
     if (object.matte && surface.at.ray_type == RayType::Camera) return Arrival::Ended;
     surface.at.ray = &path_.state;
+    open_slot(surface.at.position);
     start_writing();
     tell_path(surface.at, path_.interiors, surface.shader);
     closures_.begin(surface.at.wo, surface.frame);
@@ -164,7 +184,7 @@ auto Integrator<Tracker>::arrive(Surface& surface, Ray& ray, const Mat4f& camera
     counts.dropped_closures += closures_.n_dropped();
     absorb(surface);
     if (pass_hidden_surface(surface, ray)) return Arrival::Passed;
-    if (path_.state.written != nullptr) write_aovs(surface.at);
+    if (writes_aovs_) write_aovs(surface.at);
     if (closures_.shadow_matte() != nullptr) add_shadow_matte(surface, ray);
     if (seen()) note_first_hit(surface, camera_from_world);
     if (!lights_only_) add_emission();
@@ -176,6 +196,14 @@ auto Integrator<Tracker>::pass(const Ray& ray, float t_surface) -> Passage {
     if (scene_.light_accel && !by_shadow_rays())
         if (const Passage end = add_area_lights(ray, t_surface); end != Passage::Free) return end;
     return travel(ray, t_surface);
+}
+
+/// Light and opacity that follow come from there, if the camera sees it directly.
+template <class Tracker>
+void Integrator<Tracker>::open_slot(Vec3f position) {
+    if (!out_->deep || path_.n_scatter > 0) return;
+    out_->open_slot(-path_.state.camera_from_world->point(position).z);
+    path_.slot = out_->slot;
 }
 
 /// Where masks tell shares of the ray apart, one of them goes on, chosen by luminance.
@@ -288,9 +316,10 @@ auto Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) -> Pa
             if (!(seen > 0)) continue;
             const Color radiance = light.light->hit(ray.origin, at).radiance;
             if (is_black(radiance)) continue;
+            open_slot(at.position);
             deposit(terminal, [&](std::size_t) { return radiance * seen; });
             const float hidden = std::min(seen, 1.0F);
-            out_->alpha += average(path_.passed) * hidden;
+            out_->add_alpha(average(path_.passed) * hidden, path_.passed * hidden);
             if (hidden >= 1) return Passage::Ended;
             path_.groups.scale(Color::grey(1 - hidden));
             tracker_.scale(Color::grey(1 - hidden));
@@ -301,7 +330,7 @@ auto Integrator<Tracker>::add_area_lights(const Ray& ray, float t_surface) -> Pa
         seen_from.distance = length(at.position - path_.last.position);
         if (seen()) {
             const float hidden = unit(light.common.transmission);
-            out_->alpha += average(path_.passed) * hidden;
+            out_->add_alpha(average(path_.passed) * hidden, path_.passed * hidden);
             path_.passed *= 1 - hidden;
         }
         add_met_light(index, light.light->hit(path_.last.position, seen_from), terminal, ray,
@@ -388,6 +417,7 @@ float Integrator<Tracker>::add_infinite_lights(const Ray& ray) {
 /// Infinite lights and the background shader.
 template <class Tracker>
 void Integrator<Tracker>::add_escape(const Ray& ray) {
+    if (path_.n_scatter == 0) out_->slot = 0;
     float alpha = by_shadow_rays() ? 0 : add_infinite_lights(ray);
     if (scene_.background != nullptr && !lights_only_) {
         const auto [radiance, opaque] = background_along(ray, path_.n_scatter == 0);
@@ -402,7 +432,7 @@ void Integrator<Tracker>::add_escape(const Ray& ray) {
         for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
             if (path_.groups[g].key.seen && visible(g)) alpha = std::max(alpha, unit(opaque));
     }
-    if (seen()) out_->alpha += average(path_.passed) * alpha;
+    if (seen()) out_->add_alpha(average(path_.passed) * alpha, path_.passed * alpha);
 }
 
 /// exit_to_background: shares past their depth limit take the background in place of what the ray would meet.
@@ -453,7 +483,8 @@ void Integrator<Tracker>::absorb(const Surface& surface) {
     path_.groups.scale(left);
     tracker_.scale(left);
     if (!seen()) return;
-    out_->alpha += average(path_.passed * (kWhite - left));
+    const Color taken = path_.passed * (kWhite - left);
+    out_->add_alpha(average(taken), taken);
     path_.passed *= left;
 }
 

@@ -99,8 +99,11 @@ class Integrator {
         Ended       ///< absorbed, or hidden by a light
     };
 
+    void trace_path(const CameraRay& camera_ray, float time, const Mat4f& camera_from_world,
+                    const Sampler& sampler, SampleBuffer& out);
     // Steps of `trace`, in order.
     void follow(Ray ray, const Mat4f& camera_from_world);
+    void open_slot(Vec3f position);
     void choose_mask_group();
     void update_state();
     [[nodiscard]] std::uint32_t ray_mask() const;
@@ -131,10 +134,12 @@ class Integrator {
     void note_first_hit(const Surface& surface, const Mat4f& camera_from_world);
     void add_shadow_matte(const Surface& surface, const Ray& ray);
     [[nodiscard]] ShadowShown shadow_on(const Surface& surface, const ShadowMatte& matte);
-    void note_behind(const Surface& surface, const Mat4f& camera_from_world);
+    [[nodiscard]] bool find_behind(const Surface& front, Surface& out);
     void add_emission(float factor = 1);
     void start_writing();
     void write_aovs(const ShadePoint& at);
+    void run_aov_shaders(const ShadePoint& at);
+    void note_mattes(float weight);
     void gather_channels(const Surface& surface);
     void add_probes();
     void choose_probabilities();
@@ -187,6 +192,7 @@ class Integrator {
     [[nodiscard]] Passage collide(const Ray& ray, const Collision& collision);
     void make_vertex(const Ray& ray, const Collision& collision);
     void add_media_opacity(const Ray& ray, float to);
+    [[nodiscard]] Vec3f somewhere_in_media(const Ray& ray, float to);
     [[nodiscard]] Color media_transmittance(const Ray& ray);
 
     // Light along parts of rays (integrator_along.cpp).
@@ -270,7 +276,7 @@ class Integrator {
     /// Whether anybody still asks for light, or for what the camera ray meets.
     [[nodiscard]] bool wanted() const {
         return scene_.culling == Culling::None || tracker_.live() ||
-               (path_.n_scatter == 0 && !out_->first.hit);
+               (path_.n_scatter == 0 && (writes_aovs_ || !out_->first.hit));
     }
 
     /// Whether anybody asks for the light that the vertex gets from a light.
@@ -292,6 +298,7 @@ class Integrator {
             start;  ///< throughput at the camera, which roulette compares with; the path's part of it where it split
         RayState state;  ///< what shaders see of it
         std::uint32_t segment = 0;
+        std::uint32_t slot = 0;      ///< of the sample: where the path left what the camera sees
         int n_scatter = 0;           ///< scattering events so far
         int n_transparent = 0;       ///< transparent surfaces passed
         float siblings = 1;          ///< paths that share what this one stands for, at least 1
@@ -316,10 +323,12 @@ class Integrator {
     Fork before_;            ///< the path as it came to the vertex where it splits
     PathGroups::Step step_;  ///< of `advance`
     ClosureSet closures_, shadow_closures_;
-    std::vector<WrittenAov> written_;  ///< by shaders at the current hit
+    std::vector<WrittenAov> written_;    ///< by shaders at the current hit
+    std::vector<std::uint32_t> mattes_;  ///< ids that they write there
     SampleBuffer* out_ = nullptr;
     SegmentPoints points_;      ///< of this segment
     bool knows_first_ = false;  ///< what data layers show has been decided
+    bool writes_aovs_ = false;  ///< shaders write AOVs and mattes at the current hit
     ShadowShown shadow_;        ///< of the current vertex, where it has a shadow_matte
     bool lights_only_ = false;  ///< no share of the path may meet anything but lights
 

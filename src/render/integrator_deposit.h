@@ -15,7 +15,7 @@ void Integrator<Tracker>::deposit(Terminal terminal, const Value& value) {
     if (is_black(total)) return;
     if (!is_finite(total)) return drop(terminal.event);
     const float scale = clamp_factor(total, path_.n_scatter);
-    out_->beauty += total * scale;
+    out_->add_light(total * scale, total);
     tracker_.add(terminal, value, scale);
 }
 
@@ -33,7 +33,7 @@ void Integrator<Tracker>::deposit_scattered(Terminal terminal, const Value& valu
     if (is_black(total)) return;
     if (!is_finite(total)) return drop(terminal.event);
     const float scale = clamp_factor(total, path_.n_scatter + 1);
-    out_->beauty += total * scale;
+    out_->add_light(total * scale, total);
     tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, scaled, scale);
 }
 

@@ -18,11 +18,27 @@ void note(FirstHit& out, const Surface& surface, Color opacity, const Mat4f& cam
     out.opacity = opacity;
 }
 
+/// The point before the shape was deformed: user data Pref, else where it is in object space.
+Vec3f pref_of(const ShadePoint& at) {
+    ShaderValue pref;
+    if (at.services->user_value(at, "Pref", pref)) return {pref.rgb.r, pref.rgb.g, pref.rgb.b};
+    return at.services->object_from_world(at).point(at.position);
+}
+
 /// Light samples that decide about a shadow. A ratio of means of few samples is a little biased toward no shadow.
 constexpr std::uint32_t kShadowSamples = 16;
 /// Streams of random numbers of theirs, apart from those of the path.
 constexpr std::uint32_t kShadowStream = 1U << 12U;
 constexpr float kBelowOne = 0x1.fffffep-1F;
+
+/// How much light is seen past the surface by such lobes.
+Color seen_past(const ClosureSet& closures) {
+    const std::span<const Closure> all = closures.closures();
+    Color past;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].record->makes_no_event) past += closures.albedo(i);
+    return past;
+}
 
 /// The first lobe whose light is seen past the surface, or nothing.
 std::optional<std::size_t> see_through_lobe(const ClosureSet& closures) {
@@ -37,18 +53,28 @@ std::optional<std::size_t> see_through_lobe(const ClosureSet& closures) {
 /// Shaders write AOVs where the camera looks, through transparent surfaces but not through glass.
 template <class Tracker>
 void Integrator<Tracker>::start_writing() {
-    path_.state.written = path_.n_scatter == 0 && !written_.empty() ? written_.data() : nullptr;
+    const bool looks = path_.n_scatter == 0;
+    writes_aovs_ = looks && (!written_.empty() || !mattes_.empty());
+    path_.state.written = looks && !written_.empty() ? written_.data() : nullptr;
+    path_.state.mattes = looks && !mattes_.empty() ? mattes_.data() : nullptr;
     for (WrittenAov& aov : written_)
         aov.set = false;
 }
 
-/// Takes over what the surface's shader wrote, and what the scene's aov_shaders write beside it.
+/// What the scene's aov_shaders write beside what the surface's own shader wrote.
 template <class Tracker>
-void Integrator<Tracker>::write_aovs(const ShadePoint& at) {
+void Integrator<Tracker>::run_aov_shaders(const ShadePoint& at) {
+    std::fill(mattes_.begin(), mattes_.end(), 0U);
     for (const ShaderProgram* shader : scene_.aov_shaders) {
         shadow_closures_.begin(at.wo, Frame::from_z_x(at.normal, at.tangent));
         shader->closures(at, shadow_closures_);
     }
+}
+
+/// Takes over what was written.
+template <class Tracker>
+void Integrator<Tracker>::write_aovs(const ShadePoint& at) {
+    run_aov_shaders(at);
     const Color opacity = clamp(kWhite - closures_.transparency(), 0, 1);
     if (is_black(opacity)) return;
     for (std::size_t i = 0; i < written_.size(); ++i) {
@@ -61,62 +87,80 @@ void Integrator<Tracker>::write_aovs(const ShadePoint& at) {
             out_->written[i] = aov.value;
         }
     }
+    if (is_black(seen_past(closures_))) note_mattes(average(path_.passed * opacity));
+}
+
+/// weight  how much of the camera sample sees the surface
+template <class Tracker>
+void Integrator<Tracker>::note_mattes(float weight) {
+    for (std::uint32_t i = 0; i < mattes_.size(); ++i)
+        out_->mattes.push_back({i, mattes_[i], weight});
 }
 
 /// Alpha, and what data layers show: the first surface that is not wholly transparent.
 template <class Tracker>
 void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& camera_from_world) {
     const Color opacity = clamp(kWhite - closures_.transparency(), 0, 1);
-    const std::span<const Closure> closures = closures_.closures();
-    Color past;
-    for (std::size_t i = 0; i < closures.size(); ++i)
-        if (closures[i].record->makes_no_event) past += closures_.albedo(i);
-    out_->alpha += average(path_.passed * clamp(opacity - closures_.matte() - past, 0, 1));
-    if (knows_first_ || is_black(opacity)) return;
+    const Color past = seen_past(closures_);
+    const Color hidden = path_.passed * clamp(opacity - closures_.matte() - past, 0, 1);
+    out_->add_alpha(average(hidden), hidden);
+    if (is_black(opacity)) return;
+    const bool is_first = !knows_first_;
     knows_first_ = true;
     if (is_black(past)) {
+        if (!is_first) return;
         note(out_->first, surface, opacity, camera_from_world);
+        if (scene_.plan.wants_pref) out_->first.pref = pref_of(surface.at);
         if (closures_.shadow_matte() != nullptr) out_->first.shadow = shadow_;
-    } else {
-        note_behind(surface, camera_from_world);
+        return;
     }
+    const bool marks = writes_aovs_ && !mattes_.empty();
+    Surface behind;
+    if ((!is_first && !marks) || !find_behind(surface, behind)) return;
+    if (is_first) {
+        note(out_->first, behind, clamp(kWhite - shadow_closures_.transparency(), 0, 1),
+             camera_from_world);
+        if (scene_.plan.wants_pref) out_->first.pref = pref_of(behind.at);
+    }
+    if (!marks) return;
+    behind.at.ray = &path_.state;
+    run_aov_shaders(behind.at);
+    note_mattes(average(path_.passed * opacity));
 }
 
-/// The data of what is seen past a surface with transmit_aovs. A way of its own: data must not depend on which lobe the
-/// path goes on by.
+/// What is seen past a surface with transmit_aovs, for data and mattes; false if nothing is. A way of its own: data must not
+/// depend on which lobe the path goes on by. shadow_closures_ are then those of `out`.
 template <class Tracker>
-void Integrator<Tracker>::note_behind(const Surface& front, const Mat4f& camera_from_world) {
+bool Integrator<Tracker>::find_behind(const Surface& front, Surface& out) {
     shadow_closures_ = closures_;
     Interiors inside = path_.interiors;
-    Surface surface = front;
+    out = front;
     for (int i = 0; i <= scene_.settings.depth.total + scene_.settings.auto_transparency_depth;
          ++i) {
         // On through the lobe, through a hole, or where a better body is.
         const Interior& own = shadow_closures_.interior();
         const std::optional<std::size_t> lobe = see_through_lobe(shadow_closures_);
-        const Color opacity = clamp(kWhite - shadow_closures_.transparency(), 0, 1);
-        const bool hidden = is_hidden(surface, own, inside);
-        Vec3f along = -surface.at.wo;
+        const bool hidden = is_hidden(out, own, inside);
+        Vec3f along = -out.at.wo;
         if (lobe && !hidden) {
             const LobeSample sample = shadow_closures_.sample(*lobe, points_.direction, 0.5F);
-            if (!(sample.pdf > 0)) return;
+            if (!(sample.pdf > 0)) return false;
             along = sample.wi;
-        } else if (!hidden && !is_black(opacity)) {
-            note(out_->first, surface, opacity, camera_from_world);
-            return;
+        } else if (!hidden && !is_black(clamp(kWhite - shadow_closures_.transparency(), 0, 1))) {
+            return true;
         }
-        if (own.is_body && (lobe || hidden))
-            inside.cross(surface.shader, own, surface.at.entering);
-        const Ray ray{start_of_ray(surface, along), along, 0, kInfinity, surface.at.time};
+        if (own.is_body && (lobe || hidden)) inside.cross(out.shader, own, out.at.entering);
+        const Ray ray{start_of_ray(out, along), along, 0, kInfinity, out.at.time};
         RayHit hit;
         ++counts.rays;
-        if (!scene_.accel->intersect(ray, ray_bit(RayType::SpecularTransmit), hit)) return;
-        surface = make_surface(scene_.objects[hit.object], ray, hit, path_.footprint);
-        meet(surface, RayType::SpecularTransmit);
-        tell_path(surface.at, inside, surface.shader);
-        shadow_closures_.begin(surface.at.wo, surface.frame);
-        surface.shader->closures(surface.at, shadow_closures_);
+        if (!scene_.accel->intersect(ray, ray_bit(RayType::SpecularTransmit), hit)) return false;
+        out = make_surface(scene_.objects[hit.object], ray, hit, path_.footprint);
+        meet(out, RayType::SpecularTransmit);
+        tell_path(out.at, inside, out.shader);
+        shadow_closures_.begin(out.at.wo, out.frame);
+        out.shader->closures(out.at, shadow_closures_);
     }
+    return false;
 }
 
 /// How much light the things around keep from a shadow_matte: light samples with and without what hides them.
@@ -161,7 +205,9 @@ ShadowShown Integrator<Tracker>::shadow_on(const Surface& surface, const ShadowM
     template void Integrator<Tracker>::start_writing();                              \
     template void Integrator<Tracker>::write_aovs(const ShadePoint&);                \
     template void Integrator<Tracker>::note_first_hit(const Surface&, const Mat4f&); \
-    template void Integrator<Tracker>::note_behind(const Surface&, const Mat4f&);    \
+    template void Integrator<Tracker>::run_aov_shaders(const ShadePoint&);           \
+    template void Integrator<Tracker>::note_mattes(float);                           \
+    template bool Integrator<Tracker>::find_behind(const Surface&, Surface&);        \
     template ShadowShown Integrator<Tracker>::shadow_on(const Surface&, const ShadowMatte&);
 LIGHTSIEVE_FIRST_HIT(AovTracker)
 LIGHTSIEVE_FIRST_HIT(LogTracker)

@@ -14,7 +14,7 @@ namespace {
 
 /// Streams of random numbers of media, apart from those of the path.
 constexpr std::uint32_t kMediaStream = 0x3c6ef372U, kShadowStream = 0xa54ff53aU,
-                        kOpacityStream = 0x510e527fU;
+                        kOpacityStream = 0x510e527fU, kDepthStream = 0x9b05688cU;
 /// The sampler's pairs of dimensions for media, four a segment, past those of any path.
 constexpr std::uint32_t kMediaPairs = 1U << 16U;
 /// A path that carries less than this share of what it began with goes on by chance.
@@ -70,9 +70,11 @@ auto Integrator<Tracker>::collide(const Ray& ray, const Collision& collision) ->
     if (collision.volume != nullptr) {
         look_into(*collision.volume, position, -ray.direction, ray.time,
                   path_.groups[0].key.ray_type, closures_);
+        open_slot(position);
         // Emission on a way of mean length 1 / bound.
         add_emission(1 / collision.majorant);
     } else {
+        open_slot(position);
         closures_.begin_volume(-ray.direction);
         closures_.add_medium(path_.interiors.scattering()->medium);
     }
@@ -138,7 +140,27 @@ void Integrator<Tracker>::add_media_opacity(const Ray& ray, float to) {
         shadow_closures_);
     const Color opacity = path_.passed * (kWhite - left);
     out_->first.volume_opacity += opacity;
-    out_->alpha += average(opacity);
+    if (out_->deep && path_.n_scatter == 0) open_slot(somewhere_in_media(ray, to));
+    out_->add_alpha(average(opacity), opacity);
+}
+
+/// A point of the ray in media before `to`: over many samples their opacity is spread evenly along the ray.
+template <class Tracker>
+Vec3f Integrator<Tracker>::somewhere_in_media(const Ray& ray, float to) {
+    float all = 0;
+    const auto length_of = [&](const VolumeInterval& part) {
+        return std::max(0.0F, std::min(part.end, to) - std::max(part.begin, media_t_));
+    };
+    for (const VolumeInterval& part : media_.parts())
+        all += length_of(part);
+    float left = random(kDepthStream) * all;
+    for (const VolumeInterval& part : media_.parts()) {
+        const float length = length_of(part);
+        if (left <= length)
+            return ray.origin + ray.direction * (std::max(part.begin, media_t_) + left);
+        left -= length;
+    }
+    return ray.origin + ray.direction * to;
 }
 
 template <class Tracker>
@@ -157,6 +179,7 @@ Color Integrator<Tracker>::media_transmittance(const Ray& ray) {
     template auto Integrator<Tracker>::collide(const Ray&, const Collision&) -> Passage; \
     template void Integrator<Tracker>::make_vertex(const Ray&, const Collision&);        \
     template void Integrator<Tracker>::add_media_opacity(const Ray&, float);             \
+    template Vec3f Integrator<Tracker>::somewhere_in_media(const Ray&, float);           \
     template Color Integrator<Tracker>::media_transmittance(const Ray&);
 LIGHTSIEVE_MEDIA(AovTracker)
 LIGHTSIEVE_MEDIA(LogTracker)

@@ -179,7 +179,7 @@ void Integrator<Tracker>::see_past(std::span<const Color> factors) {
         for (const PathGroup& g : path_.groups.all()) {
             if (!g.key.seen || !scene_.depth_rules.next(g.key, *channels_[c].record).lights_only)
                 continue;
-            out_->alpha += average(path_.passed);
+            out_->add_alpha(average(path_.passed), path_.passed);
             path_.passed = kBlack;
             return;
         }

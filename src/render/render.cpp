@@ -13,6 +13,7 @@
 #include "render/adaptive.h"
 #include "render/camera_sample.h"
 #include "render/integrator.h"
+#include "render/mattes.h"
 
 namespace lightsieve {
 namespace {
@@ -60,6 +61,7 @@ struct Worker {
     std::vector<float> weights;
     std::vector<std::vector<float>> layers;  ///< by layer of the plan
     std::vector<PixelNoise> noise;           ///< of the bucket
+    std::vector<DeepBucket> deep;            ///< by driver of the plan; empty for others
     std::vector<DroppedSample> dropped;      ///< the first few
     std::uint64_t n_unreported = 0;          ///< samples since the last report of progress
     Checkpoint::Clock::time_point saved;     ///< when the bucket's state was last saved, or begun
@@ -94,7 +96,10 @@ class Renderer {
     void report_noise();
     void report_progress(Worker& worker);
     static void note_dropped(Worker& worker, int x, int y, int index);
-    void deliver(const Worker& worker, const BucketRect& rect);
+    void deliver(Worker& worker, const BucketRect& rect);
+    [[nodiscard]] bool is_deep_of_pass(const PlannedDriver& driver, std::size_t pass) const {
+        return driver.driver->deep() && scene_.plan.layers[driver.layers[0]].pass == pass;
+    }
     void close_drivers();
     void close_checkpoint();
     void report();
@@ -151,6 +156,7 @@ ImageHeader Renderer::header_of(const PlannedDriver& driver, std::size_t index) 
     for (const std::string& proved : proved_partitions(scene_.plan, index, scene_.events))
         partitions += (partitions.empty() ? "" : "\n") + proved;
     if (!partitions.empty()) h.metadata["lightsieve/partitions"] = partitions;
+    describe_mattes(scene_.plan, driver, h);
     return h;
 }
 
@@ -219,6 +225,7 @@ RenderResult Renderer::run() {
 /// stopped holds the right means of fewer samples, and zero where there are none.
 void Renderer::render_bucket(Worker& worker, std::size_t index, const BucketRect& rect) {
     worker.layers.resize(scene_.plan.layers.size());
+    worker.deep.resize(scene_.plan.drivers.size());
     for (std::size_t p = 0; p < scene_.plan.passes.size(); ++p) {
         render_pass(worker, index, p, rect);
         for (std::size_t l = 0; l < scene_.plan.layers.size(); ++l)
@@ -226,6 +233,9 @@ void Renderer::render_bucket(Worker& worker, std::size_t index, const BucketRect
                 worker.film.resolve(scene_.plan.layers[l], worker.layers[l]);
                 measure_noise(worker, index, l);
             }
+        for (std::uint32_t d = 0; d < scene_.plan.drivers.size(); ++d)
+            if (is_deep_of_pass(scene_.plan.drivers[d], p))
+                worker.deep[d] = worker.film.resolve_deep(d);
     }
     deliver(worker, rect);
     report_progress(worker);
@@ -329,7 +339,9 @@ void Renderer::report_progress(Worker& worker) {
 /// Notes how noisy a layer of light is in a bucket.
 void Renderer::measure_noise(Worker& worker, std::size_t bucket, std::size_t layer) {
     const PlannedLayer& planned = scene_.plan.layers[layer];
-    if (!is_light(planned.source) || scene_.plan.views[planned.view].filter->closest()) return;
+    if (!is_light(planned.source) ||
+        scene_.plan.views[planned.view].filter->reduction() != Reduction::Mean)
+        return;
     worker.film.estimate_noise(&planned, kNoiseStep, worker.noise);
     NoiseSum& sum = noise_[bucket][layer];
     for (const PixelNoise& p : worker.noise) {
@@ -364,11 +376,21 @@ void Renderer::note_dropped(Worker& worker, int x, int y, int index) {
 }
 
 /// Hands a bucket to drivers and memory, one bucket at a time.
-void Renderer::deliver(const Worker& worker, const BucketRect& rect) {
+void Renderer::deliver(Worker& worker, const BucketRect& rect) {
     const std::lock_guard lock(output_mutex_);
     const Clock::time_point start = Clock::now();
     if (write_files_)
-        for (const PlannedDriver& planned : scene_.plan.drivers) {
+        for (std::size_t d = 0; d < scene_.plan.drivers.size(); ++d) {
+            const PlannedDriver& planned = scene_.plan.drivers[d];
+            if (planned.driver->deep()) {
+                DeepBucket& deep = worker.deep[d];
+                deep.x = rect.x;
+                deep.y = rect.y;
+                deep.width = rect.width;
+                deep.height = rect.height;
+                planned.driver->write_deep(deep);
+                continue;
+            }
             Bucket bucket{rect.x, rect.y, rect.width, rect.height, {}};
             for (const std::uint32_t layer : planned.layers)
                 bucket.layers.emplace_back(worker.layers[layer]);
@@ -395,7 +417,9 @@ void Renderer::close_drivers() {
     if (!write_files_) return;
     const Clock::time_point start = Clock::now();
     for (const PlannedDriver& planned : scene_.plan.drivers)
-        if (planned.driver->close(diagnostics_)) result_.files.push_back(planned.driver->path());
+        if (planned.driver->close(diagnostics_) &&
+            write_sidecars(scene_.plan, planned, diagnostics_))
+            result_.files.push_back(planned.driver->path());
     result_.output_seconds += seconds_since(start);
 }
 

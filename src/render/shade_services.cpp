@@ -326,6 +326,37 @@ bool SceneServices::triangle(const ShadePoint& at, Triangle& out) const {
 
 Name SceneServices::shape_name(const ShadePoint& at) const { return object_of(at).name; }
 
+Name SceneServices::material_name(const ShadePoint& at) const {
+    const SceneObject& object = object_of(at);
+    const auto* mesh =
+        object.geometry == nullptr ? nullptr : std::get_if<TriangleMesh>(&object.geometry->data);
+    std::size_t index = 0;
+    if (mesh != nullptr && at.primitive < mesh->shader_index.size())
+        index = mesh->shader_index[at.primitive];
+    return object.shaders[std::min(index, object.shaders.size() - 1)]->name;
+}
+
+std::vector<Name> SceneServices::user_values(const ShadePoint& at, Name name) const {
+    const Found found = find(at, name);
+    std::vector<Name> out;
+    if (found.data == nullptr) return out;
+    const UserData& data = *found.data;
+    const auto add = [&](std::size_t i) {
+        if (data.type == ParamType::String)
+            out.push_back(static_cast<const Name*>(data.data)[i]);
+        else if (data.type == ParamType::Int || data.type == ParamType::UInt ||
+                 data.type == ParamType::Byte)
+            out.emplace_back(std::to_string(std::lround(number_at(data, i).rgb.r)));
+    };
+    if (data.user_class == UserDataClass::Constant) {
+        add(found.element);
+        return out;
+    }
+    for (std::size_t i = 0; i < data.n; ++i)
+        add(i);
+    return out;
+}
+
 std::int32_t SceneServices::n_lights() const {
     return static_cast<std::int32_t>(scene_.lights.size());
 }

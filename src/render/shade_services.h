@@ -27,6 +27,8 @@ class SceneServices final : public ShadeServices {
     [[nodiscard]] Mat4f object_from_world(const ShadePoint& at) const override;
     [[nodiscard]] bool triangle(const ShadePoint& at, Triangle& out) const override;
     [[nodiscard]] Name shape_name(const ShadePoint& at) const override;
+    [[nodiscard]] Name material_name(const ShadePoint& at) const override;
+    [[nodiscard]] std::vector<Name> user_values(const ShadePoint& at, Name name) const override;
     [[nodiscard]] bool trace(const ShadePoint& at, const Probe& probe,
                              ProbeHit& hit) const override;
     [[nodiscard]] std::int32_t n_lights() const override;

@@ -62,6 +62,8 @@ class ShaderProgram {
     /// Adds the shader's closures. A value shader is shown unlit: its colour is emission through lobe 0.
     void closures(const ShadePoint& at, ClosureSet& out) const;
 
+    /// Of the node; empty for the default shader.
+    Name name;
     /// Lobes with their events; filled when the scene's expressions are compiled.
     std::vector<LobeRecord> records;
     /// Labels that its events carry in place of, or beside, those of its lobes.

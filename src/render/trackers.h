@@ -144,7 +144,7 @@ class AovTracker {
     void store(Terminal terminal, lpe::AtomId atom, Color value) {
         if (!is_black(value))
             (terminal.event == probe_event_ ? out_->probes : out_->contributions)
-                .push_back({atom, value});
+                .push_back({atom, value, out_->slot});
     }
 
     std::vector<Set> sets_;

@@ -116,7 +116,10 @@ void GraphEditor::add_nodes(const Document& document,
                 {},
                 unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning};
             if (!repeated_index_.contains("node " + block.type.str()))
-                error.hint = did_you_mean(block.type.view(), graph_.registry_->names());
+                error.hint =
+                    block.type.view().starts_with("imager_")
+                        ? "imagers change the finished picture: files have it as it is rendered"
+                        : did_you_mean(block.type.view(), graph_.registry_->names());
             repeated("node " + block.type.str(), std::move(error));
             continue;
         }

@@ -1,6 +1,7 @@
 // What a node may ask of its surroundings while a scene is compiled.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@
 namespace lightsieve {
 
 class TextureCache;  // io/texture.h
+struct Matte;        // scene/cryptomatte.h
+struct PlacedShape;  // scene/cryptomatte.h
 
 /// A colour parameter that a shader may drive; constant unless it is linked.
 class ColorInput {
@@ -62,6 +65,11 @@ class NodeContext {
     [[nodiscard]] virtual float frame_number() const { return 1; }
     /// The number under which shaders write values of an AOV of their own (RayState::written).
     [[nodiscard]] virtual std::uint32_t written_aov(Name /*aov*/) { return 0; }
+    /// Announces a matte; the number under which its shader writes ids (RayState::mattes).
+    [[nodiscard]] virtual std::uint32_t add_matte(const Matte& /*matte*/) { return 0; }
+    /// Calls `body` for every shape of the scene that an aov_shader may meet. Instances that share names and user data
+    /// count once.
+    virtual void for_each_shape(const std::function<void(const PlacedShape&)>& /*body*/) {}
     /// The camera that the frame is about; null if the scene has none.
     [[nodiscard]] virtual const NodeInstance* camera() { return nullptr; }
     /// RenderOptions::rendering_space: what the command says; empty: as the scene says.

@@ -1,9 +1,31 @@
 // Pixel filters, importance-sampled: a sample belongs to one pixel and carries no weight where the filter is positive.
 #pragma once
 
+#include <cstdint>
+
 #include "core/vec.h"
 
 namespace lightsieve {
+
+/// What becomes of a pixel's samples.
+enum class Reduction : std::uint8_t {
+    Mean,          ///< their mean, weighed by the filter
+    Closest,       ///< the one nearest to the camera
+    Farthest,      ///< the one farthest from it; those that met nothing come last
+    Variance,      ///< how much they vary, weighed by the filter, each channel by itself
+    LumaVariance,  ///< the same of their luminance, in all channels
+    Range          ///< the greatest less the smallest, each channel by itself
+};
+
+/// Sums of several layers are still those layers' sum.
+[[nodiscard]] constexpr bool keeps_sums(Reduction reduction) {
+    return reduction == Reduction::Mean || reduction == Reduction::Closest ||
+           reduction == Reduction::Farthest;
+}
+/// One sample stands for the pixel.
+[[nodiscard]] constexpr bool keeps_one_sample(Reduction reduction) {
+    return reduction == Reduction::Closest || reduction == Reduction::Farthest;
+}
 
 class PixelFilter {
   public:
@@ -20,8 +42,11 @@ class PixelFilter {
     [[nodiscard]] virtual Sample sample(Vec2f u) const = 0;
     /// Density of sample() at an offset, per square pixel.
     [[nodiscard]] virtual float pdf(Vec2f offset) const = 0;
-    /// Keeps the sample nearest to the camera instead of a mean (closest_filter).
-    [[nodiscard]] virtual bool closest() const { return false; }
+    [[nodiscard]] virtual Reduction reduction() const { return Reduction::Mean; }
+    /// Numbers are shown as colours (heatmap_filter).
+    [[nodiscard]] virtual bool shows_heat() const { return false; }
+    /// The colour of a number, if they are.
+    [[nodiscard]] virtual Color heat(float value) const { return Color::grey(value); }
 };
 
 }  // namespace lightsieve

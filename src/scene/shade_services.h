@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/matrix.h"
 #include "core/name.h"
@@ -34,6 +35,8 @@ struct RayState {
     const Mat4f* camera_from_world = nullptr;  ///< of the sample's camera at its time
     /// By the numbers of NodeContext::written_aov; null where the camera does not look.
     WrittenAov* written = nullptr;
+    /// Ids by the numbers of NodeContext::add_matte, 0 before an aov_shader writes one; null where the camera does not look.
+    std::uint32_t* mattes = nullptr;
     float pixel_angle = 0;  ///< angle between neighbouring pixels [rad]; 0: parallel rays
 };
 
@@ -84,6 +87,13 @@ class ShadeServices {
     [[nodiscard]] virtual bool triangle(const ShadePoint& at, Triangle& out) const = 0;
     /// Name of the shape in the scene.
     [[nodiscard]] virtual Name shape_name(const ShadePoint& at) const = 0;
+    /// Name of the shader of the surface at the point; empty if it has none of its own.
+    [[nodiscard]] virtual Name material_name(const ShadePoint& /*at*/) const { return {}; }
+    /// Every text that user data of that name has on the shape, integers in decimal. Slow: for preparation.
+    [[nodiscard]] virtual std::vector<Name> user_values(const ShadePoint& /*at*/,
+                                                        Name /*name*/) const {
+        return {};
+    }
     /// The nearest surface along a probe; false if there is none.
     [[nodiscard]] virtual bool trace(const ShadePoint& at, const Probe& probe,
                                      ProbeHit& hit) const = 0;

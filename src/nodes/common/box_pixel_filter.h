@@ -1,4 +1,4 @@
-// The square that box_filter takes the mean over and closest_filter chooses from.
+// The square that box_filter takes the mean over, and that closest_filter and farthest_filter choose from.
 #pragma once
 
 #include <cmath>
@@ -9,9 +9,9 @@ namespace lightsieve {
 
 class BoxPixelFilter final : public PixelFilter {
   public:
-    /// radius   half of the square's side [pixels]
-    /// closest  keep the nearest sample instead of a mean
-    BoxPixelFilter(float radius, bool closest) : radius_(radius), closest_(closest) {}
+    /// radius  half of the square's side [pixels]
+    explicit BoxPixelFilter(float radius, Reduction reduction = Reduction::Mean)
+        : radius_(radius), reduction_(reduction) {}
     [[nodiscard]] float radius() const override { return radius_; }
     [[nodiscard]] float eval(Vec2f offset) const override {
         return std::abs(offset.x) <= radius_ && std::abs(offset.y) <= radius_ ? 1.0F : 0.0F;
@@ -22,11 +22,11 @@ class BoxPixelFilter final : public PixelFilter {
     [[nodiscard]] float pdf(Vec2f offset) const override {
         return eval(offset) / (4 * radius_ * radius_);
     }
-    [[nodiscard]] bool closest() const override { return closest_; }
+    [[nodiscard]] Reduction reduction() const override { return reduction_; }
 
   private:
     float radius_;
-    bool closest_;
+    Reduction reduction_;
 };
 
 }  // namespace lightsieve

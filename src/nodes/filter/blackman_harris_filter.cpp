@@ -1,6 +1,5 @@
 // blackman_harris_filter: the four-term Blackman-Harris window.
-#include <cmath>
-
+#include "nodes/common/blackman_harris.h"
 #include "nodes/common/separable_filter.h"
 #include "scene/describe.h"
 
@@ -22,13 +21,6 @@ NodeType BlackmanHarrisFilter::describe() {
         .unit("pixels")
         .hard_range(0.01F, 64);
     return d.done();
-}
-
-/// The minimum 4-term window, t in [0, 1] from the centre to the edge. Source: Harris 1978, table 1.
-double blackman_harris(double t) {
-    constexpr double kPiD = 3.14159265358979323846;
-    return 0.35875 + 0.48829 * std::cos(kPiD * t) + 0.14128 * std::cos(2 * kPiD * t) +
-           0.01168 * std::cos(3 * kPiD * t);
 }
 
 std::unique_ptr<PixelFilter> BlackmanHarrisFilter::make_filter(NodeContext&) const {

@@ -10,7 +10,7 @@ struct ClosestFilter {
 
     static NodeType describe();
     [[nodiscard]] std::unique_ptr<PixelFilter> make_filter(NodeContext&) const {
-        return std::make_unique<BoxPixelFilter>(width / 2, true);
+        return std::make_unique<BoxPixelFilter>(width / 2, Reduction::Closest);
     }
 };
 

@@ -13,6 +13,12 @@ NodeType node_blackman_harris_filter();
 NodeType node_box_filter();
 NodeType node_catrom_filter();
 NodeType node_closest_filter();
+NodeType node_contour_filter();
+NodeType node_cryptomatte_filter();
+NodeType node_diff_filter();
+NodeType node_farthest_filter();
+NodeType node_heatmap_filter();
+NodeType node_variance_filter();
 NodeType node_gaussian_filter();
 NodeType node_mitnet_filter();
 NodeType node_sinc_filter();
@@ -20,10 +26,12 @@ NodeType node_triangle_filter();
 
 namespace {
 
-std::unique_ptr<PixelFilter> make(NodeType type, float width) {
+/// kind  of those of a cryptomatte_filter; others have none
+std::unique_ptr<PixelFilter> make(NodeType type, float width, int kind = -1) {
     TestContext context;
     TestNode node(std::move(type));
     node.set("width", width);
+    if (kind >= 0) node.set_enum("filter", kind);
     return node.type().make_filter(node.block(), context);
 }
 
@@ -32,11 +40,13 @@ struct Case {
     NodeType (*type)();
     float width;
     bool is_signed;
+    int kind = -1;
 };
 
 class EveryFilter : public testing::TestWithParam<Case> {
   protected:
-    std::unique_ptr<PixelFilter> filter_ = make(GetParam().type(), GetParam().width);
+    std::unique_ptr<PixelFilter> filter_ =
+        make(GetParam().type(), GetParam().width, GetParam().kind);
 
     /// Integral of g over the filter's square, by the midpoint rule.
     template <class G>
@@ -159,16 +169,23 @@ TEST_P(EveryFilter, FiltersAPictureWithoutBias) {
 
 INSTANTIATE_TEST_SUITE_P(
     Filters, EveryFilter,
-    testing::Values(Case{"box", &node_box_filter, 1, false},
-                    Case{"wide_box", &node_box_filter, 3, false},
-                    Case{"closest", &node_closest_filter, 1, false},
-                    Case{"gaussian", &node_gaussian_filter, 2, false},
-                    Case{"wide_gaussian", &node_gaussian_filter, 5, false},
-                    Case{"triangle", &node_triangle_filter, 2, false},
-                    Case{"blackman_harris", &node_blackman_harris_filter, 3, false},
-                    Case{"catrom", &node_catrom_filter, 4, true},
-                    Case{"mitnet", &node_mitnet_filter, 4, true},
-                    Case{"sinc", &node_sinc_filter, 6, true}),
+    testing::Values(
+        Case{"box", &node_box_filter, 1, false}, Case{"wide_box", &node_box_filter, 3, false},
+        Case{"closest", &node_closest_filter, 1, false},
+        Case{"gaussian", &node_gaussian_filter, 2, false},
+        Case{"wide_gaussian", &node_gaussian_filter, 5, false},
+        Case{"triangle", &node_triangle_filter, 2, false},
+        Case{"variance", &node_variance_filter, 3, false},
+        Case{"diff", &node_diff_filter, 2, false}, Case{"heatmap", &node_heatmap_filter, 2, false},
+        Case{"matte_blackman_harris", &node_cryptomatte_filter, 2, false, 0},
+        Case{"matte_box", &node_cryptomatte_filter, 1, false, 1},
+        Case{"matte_cone", &node_cryptomatte_filter, 2, false, 2},
+        Case{"matte_disk", &node_cryptomatte_filter, 3, false, 3},
+        Case{"matte_gaussian", &node_cryptomatte_filter, 2, false, 4},
+        Case{"matte_triangle", &node_cryptomatte_filter, 2, false, 5},
+        Case{"blackman_harris", &node_blackman_harris_filter, 3, false},
+        Case{"catrom", &node_catrom_filter, 4, true}, Case{"mitnet", &node_mitnet_filter, 4, true},
+        Case{"sinc", &node_sinc_filter, 6, true}),
     [](const testing::TestParamInfo<Case>& filter) { return filter.param.name; });
 
 TEST(Filters, HaveTheirShapes) {
@@ -186,8 +203,36 @@ TEST(Filters, HaveTheirShapes) {
     EXPECT_FLOAT_EQ(mitnet->eval({0, 0}), 64.0F / 81);
     EXPECT_FLOAT_EQ(mitnet->eval({1, 0}), 8.0F / 9 / 18);
     EXPECT_NEAR(make(node_sinc_filter(), 6)->eval({2, 0}), 0, 1e-6F);
-    EXPECT_FALSE(gaussian->closest());
-    EXPECT_TRUE(make(node_closest_filter(), 1)->closest());
+    EXPECT_EQ(gaussian->reduction(), Reduction::Mean);
+    EXPECT_EQ(make(node_closest_filter(), 1)->reduction(), Reduction::Closest);
+    EXPECT_EQ(make(node_farthest_filter(), 1)->reduction(), Reduction::Farthest);
+    EXPECT_EQ(make(node_variance_filter(), 3)->reduction(), Reduction::Variance);
+    EXPECT_EQ(make(node_diff_filter(), 2)->reduction(), Reduction::Range);
+}
+
+TEST(Filters, ShowHeatFromBlueToRed) {
+    TestContext context;
+    TestNode node(node_heatmap_filter());
+    node.set("minimum", 2.0F).set("maximum", 6.0F);
+    const auto filter = node.type().make_filter(node.block(), context);
+    EXPECT_TRUE(filter->shows_heat());
+    EXPECT_EQ(filter->heat(1), Color(0, 0, 1));
+    EXPECT_EQ(filter->heat(2), Color(0, 0, 1));
+    EXPECT_EQ(filter->heat(3), Color(0, 1, 1));
+    EXPECT_EQ(filter->heat(4), Color(0, 1, 0));
+    EXPECT_EQ(filter->heat(5), Color(1, 1, 0));
+    EXPECT_EQ(filter->heat(6.5F), Color(1, 0, 0));
+    node.set("maximum", 2.0F);
+    const auto step = node.type().make_filter(node.block(), context);
+    EXPECT_EQ(step->heat(2), Color(0, 0, 1));
+    EXPECT_EQ(step->heat(2.1F), Color(1, 0, 0));
+}
+
+TEST(Filters, SayThatContoursAreMissing) {
+    TestContext context;
+    const TestNode node(node_contour_filter());
+    EXPECT_NE(node.type().make_filter(node.block(), context), nullptr);
+    EXPECT_EQ(context.count(Code::ParamPending), 1U);
 }
 
 }  // namespace
