@@ -78,7 +78,7 @@ void Compiler::make_atmosphere() {
         diagnostics_.warning(
             Code::ParamPending,
             "a " + program->type().name.str() + " as atmosphere is not supported; there is none",
-            graph_.options()->where("atmosphere"), "use an atmosphere_volume");
+            graph_.options()->where("atmosphere"), "use an atmosphere_volume or a fog");
         return;
     }
     scene_->atmosphere = program;

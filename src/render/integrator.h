@@ -205,6 +205,7 @@ class Integrator {
         const SceneObject* object = nullptr;  ///< the volume; null: the atmosphere
     };
     void add_haze(const Ray& ray, float to);
+    void add_glow(float to);
     void fade_in_haze(float from, float to);
     void add_fog(const Ray& ray, float to);
     void add_light_along(const Ray& ray, const AlongRay& part, Vec2f u, Vec2f on_light, int n);

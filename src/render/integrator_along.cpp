@@ -16,6 +16,9 @@ namespace {
 /// An irrational step (the plastic number's inverse), so that turned points do not line up.
 constexpr float kTurn = 0.7548776662F;
 
+/// How far rays without end go through haze that shows itself.
+constexpr float kHorizon = 1e7F;
+
 /// u, shifted around in [0,1).
 float turned(float u, float by) { return std::min(u + by - std::floor(u + by), kOneMinusEpsilon); }
 
@@ -161,9 +164,11 @@ void Integrator<Tracker>::add_haze(const Ray& ray, float to) {
     at.direction = ray.direction;
     at.time = ray.time;
     at.ray_type = path_.groups[0].key.ray_type;
+    at.ray_length = std::min(to, kHorizon);
     closures_.begin_volume(at.wo);
     scene_.atmosphere->closures(at, closures_);
     haze_.medium = mixed(closures_.media());
+    if (!closures_.emissions().empty()) add_glow(at.ray_length);
     if (lights_only_ || !haze_.medium.scatters() || scene_.finite_lights.size() == 0) return;
     AlongRay part;
     part.medium = haze_.medium;
@@ -177,6 +182,24 @@ void Integrator<Tracker>::add_haze(const Ray& ray, float to) {
         add_light_along(ray, part, {share + u.x / static_cast<float>(n), turned(u.y, share)},
                         {turned(on.x, share), turned(on.y, share * kTurn)}, n);
     }
+}
+
+/// What haze shows of itself: it has no end but what the ray meets.
+template <class Tracker>
+void Integrator<Tracker>::add_glow(float to) {
+    haze_.far = to;
+    const float length = to - media_t_;
+    const Color left = transmittance(haze_.medium.extinction, length);
+    Color seen;  // [scene units]
+    for (int c = 0; c < 3; ++c) {
+        const float extinction = haze_.medium.extinction[c];
+        seen[c] = extinction > 0 ? (1 - left[c]) / extinction : length;
+    }
+    for (const Emission& e : closures_.emissions())
+        deposit({e.record->terminal, e.record->event}, [&](std::size_t g) {
+            return path_.groups[g].key.lights_only ? kBlack
+                                                   : e.radiance * seen * path_.groups.indirect(g);
+        });
 }
 
 /// What the haze takes away between two points of the ray.
@@ -200,6 +223,7 @@ void Integrator<Tracker>::fade_in_haze(float from, float to) {
     template void Integrator<Tracker>::add_fog(const Ray&, float);                                \
     template auto Integrator<Tracker>::along(const VolumeInterval&, float) -> AlongRay;           \
     template void Integrator<Tracker>::add_haze(const Ray&, float);                               \
+    template void Integrator<Tracker>::add_glow(float);                                           \
     template void Integrator<Tracker>::fade_in_haze(float, float);
 LIGHTSIEVE_ALONG(AovTracker)
 LIGHTSIEVE_ALONG(LogTracker)

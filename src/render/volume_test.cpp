@@ -428,5 +428,32 @@ TEST(MajorantWalk, CoversTheRayOnceInTheRightCells) {
     EXPECT_GE(n, 4);
 }
 
+TEST(Fog, HidesWhatLiesBehindAndShowsItsColor) {
+    // A wall 5 units away, seen along the ground: as dense everywhere.
+    const auto seen = [](const std::string& fog, const std::string& more) {
+        return render(frame_text(4, 4, 2, ortho_camera({0, 0, 5}, {0, 0, 0}, 1e-3F),
+                                 " atmosphere mist") +
+                      node("fog", "mist", " color 0.2 0.4 0.8\n ground_normal 0 1 0\n" + fog) +
+                      more)
+            .mean("RGBA");
+    };
+    const std::string wall = node("flat", "red", " color 1 0 0") +
+                             node("plane", "wall", " point 0 0 0\n normal 0 0 1\n shader red");
+    const double left = std::exp(-5.0 / 10);
+    const Color along = seen(" distance 10", wall);
+    EXPECT_NEAR(along.r, left + 0.2 * (1 - left), 1e-4);
+    EXPECT_NEAR(along.b, 0.8 * (1 - left), 1e-4);
+    // Two heights above the ground it is thinner.
+    const double thin = std::exp(-5.0 / 10 * std::exp(-2.0));
+    EXPECT_NEAR(seen(" distance 10\n height 3\n ground_point 0 -6 0", wall).b, 0.8 * (1 - thin),
+                1e-4);
+    // Straight up from the ground: all of it lies on the way, height / distance, though the way has no end.
+    const double up = std::exp(-3.0 / 10);
+    EXPECT_NEAR(seen(" distance 10\n height 3\n ground_point 0 0 5\n ground_normal 0 0 -1", "").b,
+                0.8 * (1 - up), 1e-3);
+    EXPECT_NEAR(seen(" distance 0", wall).g, 0.4, 1e-5);
+    EXPECT_EQ(seen(" distance 1e30", wall).r, 1);
+}
+
 }  // namespace
 }  // namespace lightsieve::testing
