@@ -40,6 +40,7 @@ void Compiler::find_mask_types() {
 }
 
 void Compiler::make_accels() {
+    scene_->cutters.find(scene_->objects, options_.isa);
     std::vector<AccelObject> objects;
     for (const SceneObject& object : scene_->objects) {
         const std::uint32_t mask = mask_of(object);

@@ -29,6 +29,18 @@ bool can_be_undone(const Mat4f& object_from_world) {
     return true;
 }
 
+/// Whether parts of a shape were drawn wider than they are, and are to be made transparent.
+bool was_widened(const ShapeGeometry& geometry) {
+    return std::visit(
+        [](const auto& g) {
+            if constexpr (requires { g.own_radii; })
+                return !g.own_radii.empty();
+            else
+                return false;
+        },
+        geometry.data);
+}
+
 }  // namespace
 
 void Compiler::place(ShapeLeaf&& leaf) {
@@ -38,7 +50,7 @@ void Compiler::place(ShapeLeaf&& leaf) {
     object.geometry = leaf.geometry;
     const ShaderList& shaders = shaders_of(leaf);
     object.shaders = shaders.programs;
-    object.may_be_transparent = shaders.may_be_transparent;
+    object.may_be_transparent = shaders.may_be_transparent || was_widened(*leaf.geometry);
     object.may_tint_shadows = shaders.may_tint_shadows;
     object.lights =
         leaf.use_light_group ? lights_of(leaf.light_group) : scene_->light_samplers[0].get();

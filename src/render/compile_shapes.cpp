@@ -107,9 +107,11 @@ void Compiler::resample_motion(ShapeGeometry& geometry, MotionRange range) const
     } else if (auto* curves = std::get_if<CurveList>(&geometry.data)) {
         resample(curves->points);
         resample_numbers(curves->radii);
+        resample_numbers(curves->own_radii);
     } else if (auto* points = std::get_if<PointList>(&geometry.data)) {
         resample(points->centers);
         resample_numbers(points->radii);
+        resample_numbers(points->own_radii);
     }
 }
 

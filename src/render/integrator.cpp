@@ -168,9 +168,9 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
 template <class Tracker>
 auto Integrator<Tracker>::arrive(Surface& surface, Ray& ray, const Mat4f& camera_from_world)
     -> Arrival {
-    // Surfaces may have one side only, or be holes in the picture.
+    // Surfaces may have one side only, be cut away, or be holes in the picture.
     const SceneObject& object = *surface.object;
-    if (!surface.at.entering && (object.sidedness & ray_bit(surface.at.ray_type)) == 0) {
+    if (!scene_.is_there(surface, surface.at.ray_type)) {
         go_straight(surface, ray);
         return Arrival::Passed;
     }
@@ -180,7 +180,7 @@ auto Integrator<Tracker>::arrive(Surface& surface, Ray& ray, const Mat4f& camera
     start_writing();
     tell_path(surface.at, path_.interiors, surface.shader);
     closures_.begin(surface.at.wo, surface.frame);
-    surface.shader->closures(surface.at, closures_);
+    add_closures(surface, surface.at, closures_);
     counts.dropped_closures += closures_.n_dropped();
     absorb(surface);
     if (pass_hidden_surface(surface, ray)) return Arrival::Passed;

@@ -158,7 +158,7 @@ bool Integrator<Tracker>::find_behind(const Surface& front, Surface& out) {
         meet(out, RayType::SpecularTransmit);
         tell_path(out.at, inside, out.shader);
         shadow_closures_.begin(out.at.wo, out.frame);
-        out.shader->closures(out.at, shadow_closures_);
+        add_closures(out, out.at, shadow_closures_);
     }
     return false;
 }

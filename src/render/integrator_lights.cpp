@@ -149,17 +149,15 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore, s
             return out;
         const SceneObject& object = scene_.objects[hit.object];
         const Surface surface = make_surface(object, ray, hit, {});
-        const bool one_sided =
-            !surface.at.entering && (object.sidedness & ray_bit(RayType::Shadow)) == 0;
         const bool casts = object.shadow_lights == nullptr || (*object.shadow_lights)[light];
-        if (&object != ignore && !one_sided && casts) {
+        if (&object != ignore && casts && scene_.is_there(surface, RayType::Shadow)) {
             if (!object.may_be_transparent && !object.may_tint_shadows) return dark;
             ShadePoint at = surface.at;
             at.ray_type = RayType::Shadow;
             tell_path(at, inside, surface.shader);
             at.ray = &path_.state;
             shadow_closures_.begin(at.wo, surface.frame);
-            surface.shader->closures(at, shadow_closures_);
+            add_closures(surface, at, shadow_closures_);
             const Color straight = clamp(shadow_closures_.transparency(), 0, 1);
             const Interior& own = shadow_closures_.interior();
             out.straight *= straight;

@@ -15,6 +15,7 @@
 #include "render/accel.h"
 #include "render/aov_plan.h"
 #include "render/checkpoint.h"
+#include "render/cutting.h"
 #include "render/gi_kind.h"
 #include "render/light_sampler.h"
 #include "render/path_terms.h"
@@ -102,6 +103,7 @@ class Scene {
     std::vector<std::unique_ptr<LinkedColor>> colors;
     std::unique_ptr<SceneServices> services;  ///< what shaders may ask of the scene
     std::vector<SceneObject> objects;
+    Cutters cutters;
     // What objects point to.
     Arena matrices{1U << 20U};
     std::deque<Lineage> lineages;
@@ -143,6 +145,9 @@ class Scene {
     bool capture = false, write_files = true;  ///< as RenderOptions
     AovPlan plan;
     SceneSummary summary;
+
+    /// Whether rays of a type meet a surface: shapes may have one side only, and parts may be cut away.
+    [[nodiscard]] bool is_there(const Surface& surface, RayType type) const;
 };
 
 }  // namespace lightsieve

@@ -18,6 +18,7 @@ namespace lightsieve {
 
 class DisplacementMap;  // render/displacement.h
 class LightSampler;     // render/light_sampler.h
+struct Cutter;          // render/cutting.h
 class NodeInstance;     // scene/graph.h
 class ShadeServices;    // scene/shade_services.h
 class ShaderProgram;    // render/shader_program.h
@@ -46,6 +47,7 @@ struct SceneObject {
     const Lineage* lineage = nullptr;         ///< nodes of the graph, which outlives the scene
     const ShadeServices* services = nullptr;  ///< for shaders
     const DisplacementMap* bumps = nullptr;   ///< displacement that shows as bumps; null: none
+    const Cutter* cutter = nullptr;           ///< it cuts others (clip_geo); null: it does not
     Name name;
     std::uint64_t instance = 0;  ///< which of the instances that share the lineage
     std::uint32_t id = 0;
@@ -53,6 +55,7 @@ struct SceneObject {
     bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;
     bool may_be_transparent = false;  ///< rays may pass straight through
     bool may_tint_shadows = false;    ///< shadow rays may, though other rays do not
+    bool is_cut = false;              ///< parts of it are not there: Scene::cutters knows which
     /// What hides lights from it is not what hides them from a ray that leaves it: only light samples find lights.
     [[nodiscard]] bool tampers_with_shadows() const { return !receive_shadows || !self_shadows; }
 };

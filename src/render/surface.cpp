@@ -42,7 +42,8 @@ struct LocalPoint {
     bool on_curve = false, round = false;
     Vec2f curve_uv;
     float curve_offset = 0;
-    Vec3f center;  ///< of the cross-section
+    Vec3f center;        ///< of the cross-section
+    float coverage = 1;  ///< see Surface
 };
 
 /// From where a hit is looked at.
@@ -52,6 +53,9 @@ struct View {
     Vec3f wo;     ///< unit, world space
     float time;
 };
+
+/// How much of a widened radius there was before.
+float share_of(float own, float widened) { return widened > own ? own / widened : 1; }
 
 /// A vertex normal that faces away from the viewer, laid onto the horizon.
 ///
@@ -134,8 +138,16 @@ LocalPoint resolve(const PointList& points, const RayHit& hit, const View& view)
     const float radius = std::lerp(points.radii[k.first][hit.primitive],
                                    points.radii[k.second][hit.primitive], k.f);
     LocalPoint out;
+    if (!points.own_radii.empty()) {
+        const float own = std::lerp(points.own_radii[k.first][hit.primitive],
+                                    points.own_radii[k.second][hit.primitive], k.f);
+        out.coverage = square(share_of(own, radius));
+    }
     if (points.mode == PointList::Mode::Sphere) {
+        // What passes it meets its far side, too.
+        const float twice = 1 - std::sqrt(1 - out.coverage);
         out = on_sphere(center, radius, view);
+        out.coverage = twice;
     } else {
         // Flat, across the ray; uv are those of the square around it.
         const FacingQuad quad = quad_of(points, hit.primitive, center, radius);
@@ -173,11 +185,12 @@ struct CurvePoint {
     float radius = 0, radius_derivative = 0;
 };
 
-CurvePoint curve_at(const CurveList& curves, std::size_t first, float u, float time) {
+CurvePoint curve_at(const CurveList& curves, const std::vector<std::vector<float>>& radii,
+                    std::size_t first, float u, float time) {
     const AtTime points(curves.points, time);
-    const KeyBlend k = blend_at(curves.radii.size(), time);
+    const KeyBlend k = blend_at(radii.size(), time);
     const auto radius = [&](std::size_t i) {
-        return std::lerp(curves.radii[k.first][i], curves.radii[k.second][i], k.f);
+        return std::lerp(radii[k.first][i], radii[k.second][i], k.f);
     };
     if (curves.linear) {
         const Vec3f a = points[first], b = points[first + 1];
@@ -204,7 +217,7 @@ CurvePoint curve_at(const CurveList& curves, std::size_t first, float u, float t
 LocalPoint resolve(const CurveList& curves, const RayHit& hit, const View& view) {
     const CurveList::Segment& segment = curves.segments[hit.primitive];
     const float u = std::clamp(hit.barycentric.x, 0.0F, 1.0F);
-    const CurvePoint at = curve_at(curves, segment.first, u, view.time);
+    const CurvePoint at = curve_at(curves, curves.radii, segment.first, u, view.time);
     const Vec3f along = normalize(at.derivative, {1, 0, 0});
     const Mat4f& to_object = view.place.object_from_world;
 
@@ -247,6 +260,9 @@ LocalPoint resolve(const CurveList& curves, const RayHit& hit, const View& view)
         }
     }
     out.on_curve = true;
+    if (!curves.own_radii.empty())
+        out.coverage = share_of(
+            curve_at(curves, curves.own_radii, segment.first, u, view.time).radius, at.radius);
     out.center = at.center;
     out.dp_du = along;
     out.curve_uv = {0.5F + 0.5F * out.curve_offset, std::lerp(segment.v0, segment.v1, u)};
@@ -271,6 +287,7 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     out.object = &object;
     out.t = hit.t;
     out.shader = object.shaders[std::min(local.shader, object.shaders.size() - 1)];
+    out.coverage = local.coverage;
     const Vec3f wo = view.wo;
     const float outside = object.invert_normals ? -1.0F : 1.0F;
     const Vec3f geometric =
@@ -348,6 +365,20 @@ Surface make_surface(const SceneObject& object, const Ray& ray, const RayHit& hi
     return with_placement(object, ray.time, [&](const Placement& place) {
         return surface_at(place, object, ray, hit, footprint);
     });
+}
+
+bool Scene::is_there(const Surface& surface, RayType type) const {
+    const SceneObject& object = *surface.object;
+    if (!surface.at.entering && (object.sidedness & ray_bit(type)) == 0) return false;
+    return !object.is_cut || cutters.is_there(surface, *accel, objects);
+}
+
+void add_closures(const Surface& surface, const ShadePoint& at, ClosureSet& out) {
+    if (surface.coverage < 1) {
+        out.transparent(Color::grey(1 - surface.coverage));
+        out.set_scale(Color::grey(surface.coverage));
+    }
+    surface.shader->closures(at, out);
 }
 
 void meet(Surface& surface, RayType type) {

@@ -22,7 +22,14 @@ struct Surface {
     bool round_fibre = false;
     Vec3f fibre_center;      ///< of the cross-section, world space
     bool in_medium = false;  ///< no surface but a point in a volume: it has no sides
+    /// What is really there of a shape that was drawn wider than it is (min_pixel_width): the rest is transparent.
+    float coverage = 1;
 };
+
+/// Adds the closures of the surface's shader.
+///
+/// at  the surface's point, or a copy that differs in what the path knows
+void add_closures(const Surface& surface, const ShadePoint& at, ClosureSet& out);
 
 /// Where a ray that leaves the surface toward `wi` starts.
 [[nodiscard]] Vec3f start_of_ray(const Surface& surface, Vec3f wi);

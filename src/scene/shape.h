@@ -105,9 +105,11 @@ struct CurveList {
         float v0 = 0, v1 = 1;     ///< how far along its curve the segment begins and ends, [0,1]
     };
     Mode mode = Mode::Ribbon;
-    bool linear = false;                      ///< segments are straight: two control points each
-    std::vector<std::vector<Vec3f>> points;   ///< control points, one list a motion key
-    std::vector<std::vector<float>> radii;    ///< of the control points; as many keys as points
+    bool linear = false;                     ///< segments are straight: two control points each
+    std::vector<std::vector<Vec3f>> points;  ///< control points, one list a motion key
+    std::vector<std::vector<float>> radii;   ///< of the control points; as many keys as points
+    /// What the radii were before thin curves were widened (min_pixel_width), to be made transparent; empty: none was.
+    std::vector<std::vector<float>> own_radii;
     std::vector<std::vector<Vec3f>> normals;  ///< of the control points; Oriented only
     std::vector<Segment> segments;
     std::vector<Vec2f> uvs;  ///< by curve; empty: shaders see across and along as uv
@@ -121,7 +123,9 @@ struct PointList {
     Mode mode = Mode::Disk;
     std::vector<std::vector<Vec3f>> centers;  ///< one list a motion key
     std::vector<std::vector<float>> radii;  ///< as many keys as centers; of quads half their width
-    std::vector<float> aspect;              ///< width by height; quads only
+    /// What the radii were before small points were widened (min_pixel_width), to be made transparent; empty: none was.
+    std::vector<std::vector<float>> own_radii;
+    std::vector<float> aspect;         ///< width by height; quads only
     std::vector<float> rotation_rad;   ///< counter-clockwise as seen, away from `up`; quads only
     std::vector<std::uint32_t> index;  ///< number of each point in the node
     Vec3f up{0, 1, 0};                 ///< upward edges of quads lean to it; object space

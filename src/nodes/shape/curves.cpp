@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "nodes/common/pixel_width.h"
 #include "nodes/shape/shape_common.h"
 #include "scene/node_context.h"
 
@@ -55,10 +56,10 @@ NodeType Curves::describe() {
     d.param("uvs", &Curves::uvs,
             "Texture coordinate of each curve; left out: across and along the curve.");
     d.param("min_pixel_width", &Curves::min_pixel_width,
-            "Thinner curves are widened to it and made transparent; here they keep their width, "
-            "and more samples smooth them.")
+            "Curves thinner than that on the picture are widened to it and as much more "
+            "transparent; 0: none.")
         .unit("pixels")
-        .pending();
+        .range(0, 1);
     return d.done();
 }
 
@@ -76,7 +77,10 @@ constexpr ToBezier kFromCatmullRom{
 /// Builds the segments of one node.
 class CurveBuilder {
   public:
-    CurveBuilder(const Curves& node, NodeContext& context) : node_(node), context_(context) {
+    CurveBuilder(const Curves& node, NodeContext& context)
+        : node_(node),
+          context_(context),
+          pixel_width_(node.min_pixel_width, node.matrix, context) {
         switch (node.basis) {
             case Basis::Bezier: step_ = 3; break;
             case Basis::BSpline: to_bezier_ = kFromBSpline; break;
@@ -95,10 +99,12 @@ class CurveBuilder {
         for (std::uint32_t k = 0; k < n_keys(); ++k) {
             out_.points.emplace_back();
             out_.radii.emplace_back();
+            if (pixel_width_.acts()) out_.own_radii.emplace_back();
         }
         if (out_.mode == CurveList::Mode::Oriented) out_.normals.resize(1);
         for (std::size_t i = 0; i + 1 < first_point_.size(); ++i)
             add_curve(i);
+        if (out_.own_radii == out_.radii) out_.own_radii.clear();
         add_uvs();
         report_left_out();
         auto geometry = std::make_unique<ShapeGeometry>();
@@ -263,6 +269,7 @@ class CurveBuilder {
             for (std::uint32_t k = 0; k < n_keys(); ++k) {
                 out_.points[k].resize(first_control);
                 out_.radii[k].resize(first_control);
+                if (pixel_width_.acts()) out_.own_radii[k].resize(first_control);
             }
             return;
         }
@@ -282,8 +289,10 @@ class CurveBuilder {
         for_each_control(curve, [&](std::size_t s, std::size_t c) {
             const float r = radius_at(k, curve, s, c);
             widest = std::max(widest, r);
-            out_.points[k].push_back(blend(values, first_point_[curve] + s * step_, c));
-            out_.radii[k].push_back(r);
+            const Vec3f p = blend(values, first_point_[curve] + s * step_, c);
+            out_.points[k].push_back(p);
+            out_.radii[k].push_back(pixel_width_.acts() ? pixel_width_.widened(p, r) : r);
+            if (pixel_width_.acts()) out_.own_radii[k].push_back(r);
         });
         return widest;
     }
@@ -336,6 +345,7 @@ class CurveBuilder {
 
     const Curves& node_;
     NodeContext& context_;
+    PixelWidth pixel_width_;
     CurveList out_;
     std::size_t n_controls_ = 4;  ///< of a segment, in the node's basis
     std::size_t step_ = 1;        ///< control points from one segment to the next

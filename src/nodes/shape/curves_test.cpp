@@ -148,5 +148,28 @@ TEST(Curves, OrientedCurvesNeedNormals) {
     EXPECT_EQ(built(node).mode, CurveList::Mode::Thick);
 }
 
+TEST(Curves, ThinOnesAreWidenedToAShareOfAPixel) {
+    // Without a camera the frame sees all around: at distance 10 a unit has 160 / (2 pi 10) = 2.546 pixels.
+    const float least = 0.5F / 2.546F;
+    TestNode node = curves({2, 2}, {{0, 0, 10}, {0, 0, 10}, {0, 0, 20}, {0, 0, 20}}, {}, kLinear);
+    node.set_array<float>("radius", {0.01F, 0.5F, 0.01F, 0.5F});
+    EXPECT_TRUE(built(node).own_radii.empty());
+    node.set("min_pixel_width", 1.0F);
+    const CurveList list = built(node);
+    EXPECT_EQ(list.own_radii[0], (std::vector<float>{0.01F, 0.5F, 0.01F, 0.5F}));
+    EXPECT_NEAR(list.radii[0][0], least, 1e-3F);
+    EXPECT_EQ(list.radii[0][1], 0.5F);
+    EXPECT_NEAR(list.radii[0][2], 2 * least, 2e-3F);
+    // Nothing is kept where nothing was widened.
+    node.set_array<float>("radius", {0.5F});
+    EXPECT_TRUE(built(node).own_radii.empty());
+    node.set_array<float>("radius", {0.01F});
+    for (const float odd : {-1.0F, std::numeric_limits<float>::quiet_NaN(),
+                            std::numeric_limits<float>::infinity()}) {
+        node.set("min_pixel_width", odd);
+        EXPECT_TRUE(built(node).own_radii.empty()) << odd;
+    }
+}
+
 }  // namespace
 }  // namespace lightsieve

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "nodes/common/pixel_width.h"
 #include "nodes/shape/shape_checks.h"
 #include "nodes/shape/shape_common.h"
 #include "scene/graph.h"
@@ -43,10 +44,10 @@ NodeType Points::describe() {
             "Turn of quads, counter-clockwise as seen: one for all or one a point; 0.")
         .unit("degrees");
     d.param("min_pixel_width", &Points::min_pixel_width,
-            "Smaller points are widened to it and made transparent; here they keep their width, "
-            "and more samples smooth them.")
+            "Points smaller than that on the picture are widened to it and as much more "
+            "transparent; 0: none.")
         .unit("pixels")
-        .pending();
+        .range(0, 1);
     return d.done();
 }
 
@@ -63,7 +64,10 @@ Vec3f camera_up(NodeContext& context) {
 /// Builds the particles of one node.
 class PointBuilder {
   public:
-    PointBuilder(const Points& node, NodeContext& context) : node_(node), context_(context) {}
+    PointBuilder(const Points& node, NodeContext& context)
+        : node_(node),
+          context_(context),
+          pixel_width_(node.min_pixel_width, node.matrix, context) {}
 
     std::unique_ptr<ShapeGeometry> build() {
         out_.mode = static_cast<PointList::Mode>(node_.mode);
@@ -71,9 +75,11 @@ class PointBuilder {
         for (std::uint32_t k = 0; k < n_keys(); ++k) {
             out_.centers.emplace_back();
             out_.radii.emplace_back();
+            if (pixel_width_.acts()) out_.own_radii.emplace_back();
         }
         for (std::uint32_t i = 0; i < node_.points.n; ++i)
             add(i);
+        if (out_.own_radii == out_.radii) out_.own_radii.clear();
         if (out_.mode == PointList::Mode::Quad) find_up();
         report_left_out();
         auto geometry = std::make_unique<ShapeGeometry>();
@@ -150,8 +156,11 @@ class PointBuilder {
         if (!usable(i)) return;
         out_.index.push_back(i);
         for (std::uint32_t k = 0; k < n_keys(); ++k) {
-            out_.centers[k].push_back(center(k, i));
-            out_.radii[k].push_back(std::max(radius(k, i), 0.0F));
+            const Vec3f c = center(k, i);
+            const float r = std::max(radius(k, i), 0.0F);
+            out_.centers[k].push_back(c);
+            out_.radii[k].push_back(pixel_width_.acts() ? pixel_width_.widened(c, r) : r);
+            if (pixel_width_.acts()) out_.own_radii[k].push_back(r);
         }
         if (out_.mode != PointList::Mode::Quad) return;
         const float aspect = value(node_.aspect, 0, i, 1),
@@ -186,6 +195,7 @@ class PointBuilder {
 
     const Points& node_;
     NodeContext& context_;
+    PixelWidth pixel_width_;
     PointList out_;
     std::size_t n_not_finite_ = 0, n_small_ = 0, n_odd_ = 0;
 };

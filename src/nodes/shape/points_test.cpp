@@ -79,5 +79,16 @@ TEST(Points, QuadsHaveAspectAndRotation) {
     EXPECT_EQ(list.up, (Vec3f{0, 1, 0}));
 }
 
+TEST(Points, SmallOnesAreWidenedToAShareOfAPixel) {
+    // Without a camera the frame sees all around: at distance 10 a unit has 160 / (2 pi 10) = 2.546 pixels.
+    TestNode node = points({{0, 0, 10}, {10, 0, 0}}, {0.01F, 0.5F}, kDisk);
+    EXPECT_TRUE(built(node).own_radii.empty());
+    node.set("min_pixel_width", 1.0F);
+    const PointList list = built(node);
+    EXPECT_EQ(list.own_radii[0], (std::vector<float>{0.01F, 0.5F}));
+    EXPECT_NEAR(list.radii[0][0], 0.5F / 2.546F, 1e-3F);
+    EXPECT_EQ(list.radii[0][1], 0.5F);
+}
+
 }  // namespace
 }  // namespace lightsieve
