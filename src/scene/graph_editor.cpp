@@ -9,6 +9,7 @@
 #include "scene/ass_lexer.h"
 #include "scene/ass_packed.h"
 #include "scene/ass_write.h"
+#include "scene/missing_nodes.h"
 
 namespace lightsieve {
 namespace {
@@ -115,11 +116,11 @@ void GraphEditor::add_nodes(const Document& document,
                 {},
                 {},
                 unknown_ == UnknownPolicy::Error ? Severity::Error : Severity::Warning};
-            if (!repeated_index_.contains("node " + block.type.str()))
-                error.hint =
-                    block.type.view().starts_with("imager_")
-                        ? "imagers change the finished picture: files have it as it is rendered"
-                        : did_you_mean(block.type.view(), graph_.registry_->names());
+            if (!repeated_index_.contains("node " + block.type.str())) {
+                error.hint = lost_without(block.type.view());
+                if (error.hint.empty())
+                    error.hint = did_you_mean(block.type.view(), graph_.registry_->names());
+            }
             repeated("node " + block.type.str(), std::move(error));
             continue;
         }

@@ -256,6 +256,17 @@ TEST(Params, GivenTwice) {
 
 // ---- unknown nodes ----
 
+TEST(UnknownNodes, OfArnoldSayWhatIsLost) {
+    const auto hint = [](const std::string& type) {
+        return build("\n" + type + " { name a }").rendered;
+    };
+    EXPECT_NE(hint("usd").find("everything in its file is missing from the picture"),
+              std::string::npos);
+    EXPECT_NE(hint("volume_sample_rgb").find("keeps the value that is written"),
+              std::string::npos);
+    EXPECT_EQ(hint("zzz_nobody_knows").find("hint"), std::string::npos);
+}
+
 TEST(UnknownNodes, AreSkippedAndReferencesToThemAreWarnings) {
     const std::string text =
         "options { operator op }\nset_parametr { name op }\nset_parametr { name op2 inputs op }\n"

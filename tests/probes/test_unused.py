@@ -35,7 +35,8 @@ def another_value(param: Param) -> str:
         param.default[0] if isinstance(param.default, list) and param.default else param.default
     )
     if param.type == "ENUM":
-        return next((word for word in param.enumerators if word != default), str(default))
+        word = next((word for word in param.enumerators if word != default), str(default))
+        return f'"{word}"'
     if param.type == "BOOL":
         return "off" if default else "on"
     if param.type == "STRING":
