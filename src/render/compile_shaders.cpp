@@ -109,7 +109,10 @@ void Compiler::link_closures(const NodeInstance& node, ShaderProgram& program, i
 
 /// By the parameter for opacity, which every shader that lets rays through has.
 bool Compiler::shader_may_be_transparent(const NodeInstance& node) const {
-    for (const char* name : {"opacity", "geometry_opacity"}) {
+    // A layered shader lets through what its top layer does.
+    if (const auto* clear = node.find<Color>("transparency0"))
+        if (!is_black(*clear) || node.is_linked("transparency0")) return true;
+    for (const char* name : {"opacity", "opacity_color", "geometry_opacity"}) {
         if (node.type().find(name) == nullptr) continue;
         const auto* color = node.find<Color>(name);
         const auto* number = node.find<float>(name);
