@@ -103,7 +103,7 @@ TEST(Graph, UnnamedNodesHaveNamesThatNobodyCanSpell) {
 TEST(Types, WrongOnesAreLocatedErrors) {
     EXPECT_EQ(reported("standard_surface", " base 1 2"), "4:7 error wrong-type\n");
     EXPECT_EQ(reported("standard_surface", " base_color 1 2"), "4:13 error wrong-type\n");
-    EXPECT_EQ(reported("standard_surface", " base_color 0.5"), "4:13 error wrong-type\n");
+    EXPECT_EQ(reported("standard_surface", " base_color 0.5 0.5"), "4:13 error wrong-type\n");
     EXPECT_EQ(reported("standard_surface", " normal 1 2 3 4"), "4:9 error wrong-type\n");
     EXPECT_EQ(reported("standard_surface", " base 2 1 FLOAT 1 2"), "4:7 error wrong-type\n");
     EXPECT_EQ(reported("standard_surface", " base 1 1 VECTOR 1 2 3"), "4:7 error wrong-type\n");
@@ -252,6 +252,18 @@ TEST(Params, GivenTwice) {
         "{ name c }\n");
     EXPECT_EQ(b.reported, "5:2 lint duplicate-param\n");
     EXPECT_EQ(b.graph.find("l")->get<std::int32_t>("samples"), 3);
+}
+
+TEST(Values, NumbersAndColorsStandForEachOther) {
+    // ground_albedo of physical_sky was a number once, and scales were one for all axes.
+    const Built b = build(
+        "standard_surface { name s base_color 0.25 base 0.5 0.5 0.5 normal 2 }\n"
+        "standard_surface { name t base 0.125 0.2 0.3 }\n");
+    EXPECT_EQ(b.reported, "2:32 warning wrong-type\n");
+    EXPECT_EQ(b.graph.find("s")->get<Color>("base_color"), Color::grey(0.25F));
+    EXPECT_EQ(b.graph.find("s")->get<float>("base"), 0.5F);
+    EXPECT_EQ(b.graph.find("s")->get<Vec3f>("normal"), (Vec3f{2, 2, 2}));
+    EXPECT_EQ(b.graph.find("t")->get<float>("base"), 0.125F);
 }
 
 // ---- unknown nodes ----

@@ -27,6 +27,7 @@ constexpr std::array kMissing{
     Missing{"material", "what refers to it has the default surface"},
     Missing{"materialx",
             "the looks in its file are not assigned: shapes keep the shaders that they have"},
+    Missing{"motion_vector", kValue},
     Missing{"nurbs", kShape},
     Missing{"override", "what it would change keeps its values"},
     Missing{"query_shape", kValue},

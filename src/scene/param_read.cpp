@@ -204,6 +204,25 @@ class Conversion {
         return true;
     }
 
+    /// One number where a colour or vector is expected stands for all channels, and of a colour where one number is expected the
+    /// first channel counts: parameters changed from one to the other between versions.
+    void adapt_channels(std::vector<std::uint32_t>& words) {
+        const ParamType type = target_.type;
+        const bool one_for_all =
+            type == ParamType::Rgb || type == ParamType::Rgba || type == ParamType::Vector;
+        if (words.size() == 1 && one_for_all) {
+            words.resize(component_count(type), words[0]);
+            if (type == ParamType::Rgba) words[3] = std::bit_cast<std::uint32_t>(1.0F);
+        } else if (words.size() == 3 && type == ParamType::Float) {
+            if (words[0] != words[1] || words[0] != words[2])
+                diagnostics_.warning(
+                    Code::WrongType,
+                    fmt::format("{} takes one number (FLOAT), not a colour", target_.label),
+                    where(), "the first of the three counts");
+            words.resize(1);
+        }
+    }
+
     /// A run of numbers without a head: one value, or for arrays several.
     bool loose_numbers() {
         std::vector<std::uint32_t> words;
@@ -211,6 +230,8 @@ class Conversion {
         if (!number_tokens(std::numeric_limits<std::uint64_t>::max(), n,
                            [&](std::uint64_t, std::uint32_t word) { words.push_back(word); }))
             return false;
+        if (!target_.is_array) adapt_channels(words);
+        n = words.size();
         const std::size_t want = component_count(target_.type);
         // RGB and RGBA stand for each other: nodes changed from one to the other between versions.
         const bool colors = (target_.type == ParamType::Rgb && n == 4) ||
