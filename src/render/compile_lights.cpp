@@ -33,6 +33,12 @@ std::unique_ptr<Light> light_at(const NodeInstance& node, const Mat4f& place, fl
     return type.make_light(block.get(), context);
 }
 
+/// options.light_samples: so many samples for all lights together, at least one each.
+void share_samples(std::vector<SceneLight>& lights, int n) {
+    for (SceneLight& light : lights)
+        light.n_samples = std::max(1, n / static_cast<int>(lights.size()));
+}
+
 }  // namespace
 
 /// The shutter belongs to the camera that the frame is about.
@@ -112,6 +118,8 @@ void Compiler::make_lights() {
         if (light.group != "default") groups.insert(light.group);
     if (portal != nullptr) set_portals(*portal);
     scene_->summary.light_groups.assign(groups.begin(), groups.end());
+    if (const auto samples = option<std::int32_t>("light_samples", 0); samples > 0)
+        share_samples(scene_->lights, squared_samples(samples));
     std::vector<const Light*> lights;
     for (const SceneLight& light : scene_->lights)
         lights.push_back(light.light.get());

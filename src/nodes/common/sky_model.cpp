@@ -16,16 +16,8 @@ constexpr float kPerLux = kPi / 100000;
 /// Luminous efficacy, by which the tables' watts become lumens [lm/W].
 constexpr float kEfficacy = 683;
 
-const ColorConversion& rendering_from_rec709() {
-    static const ColorConversion kConversion(
-        ColorSpace{Primaries::Rec709, Transfer::Linear, false}, kRenderingSpace);
-    return kConversion;
-}
-const ColorConversion& rec709_from_rendering() {
-    static const ColorConversion kConversion(
-        kRenderingSpace, ColorSpace{Primaries::Rec709, Transfer::Linear, false});
-    return kConversion;
-}
+/// That of the tables.
+constexpr ColorSpace kTableSpace{Primaries::Rec709, Transfer::Linear, false};
 
 /// A quintic Bezier curve; its control points lie `stride` apart.
 float quintic(const float* p, std::size_t stride, float t) {
@@ -78,11 +70,14 @@ Color transmittance(float turbidity, float elevation) {
 
 }  // namespace
 
-SkyModel::SkyModel(float turbidity, float albedo, Vec3f sun) : toward_sun_(sun) {
-    const float air = std::clamp(turbidity, 1.0F, 10.0F), ground = std::clamp(albedo, 0.0F, 1.0F);
+SkyModel::SkyModel(float turbidity, Color albedo, Vec3f sun, ColorSpace rendering)
+    : rendering_from_rec709_(kTableSpace, rendering), toward_sun_(sun) {
+    const float air = std::clamp(turbidity, 1.0F, 10.0F);
+    const Color albedos = clamp(ColorConversion(rendering, kTableSpace)(albedo), 0, 1);
     const float elevation = std::asin(std::clamp(sun.y, 0.0F, 1.0F));
     const float t = std::cbrt(elevation / (0.5F * kPi));
     for (std::size_t c = 0; c < 3; ++c) {
+        const float ground = albedos[static_cast<int>(c)];
         for (std::size_t i = 0; i < 9; ++i)
             shape_[c][i] = table_value(sky_data::kShape[c], 54, i, 9, air, ground, t);
         radiance_[c] =
@@ -91,9 +86,9 @@ SkyModel::SkyModel(float turbidity, float albedo, Vec3f sun) : toward_sun_(sun) 
     if (!(sun.y > 0)) return;
     constexpr float kSurface = 5778;    // of the sun [K]
     constexpr float kOutside = 127500;  // illuminance outside of the atmosphere [lx]
-    const Color outside =
-        rec709_from_rendering()(blackbody_color(kSurface) * (kOutside * kPerLux));
-    sun_irradiance_ = rendering_from_rec709()(outside * transmittance(air, elevation));
+    const Color outside = ColorConversion(
+        kRenderingSpace, kTableSpace)(blackbody_color(kSurface) * (kOutside * kPerLux));
+    sun_irradiance_ = rendering_from_rec709_(outside * transmittance(air, elevation));
 }
 
 Color SkyModel::sky(Vec3f direction) const {
@@ -115,7 +110,7 @@ Color SkyModel::sky(Vec3f direction) const {
             (k + d * std::exp(e * gamma) + f * cosine * cosine + g * halo + i * std::sqrt(height));
         out[static_cast<int>(c)] = std::max(0.0F, value * radiance_[c]);
     }
-    return rendering_from_rec709()(out);
+    return rendering_from_rec709_(out);
 }
 
 }  // namespace lightsieve

@@ -11,6 +11,7 @@
 
 #include <array>
 
+#include "core/color.h"
 #include "core/vec.h"
 
 namespace lightsieve {
@@ -19,7 +20,8 @@ class SkyModel {
   public:
     /// turbidity    of the air, 1 (clear) to 10 (hazy); albedo: of the ground, [0,1]; clamped to that
     /// sun          unit vector, y toward the zenith
-    SkyModel(float turbidity, float albedo, Vec3f sun);
+    /// rendering    the space of `albedo` and of what is returned
+    SkyModel(float turbidity, Color albedo, Vec3f sun, ColorSpace rendering = kRenderingSpace);
 
     /// Radiance from a direction, without the sun; rendering space. Black below the horizon.
     ///
@@ -30,6 +32,7 @@ class SkyModel {
     [[nodiscard]] Vec3f toward_sun() const { return toward_sun_; }
 
   private:
+    ColorConversion rendering_from_rec709_;
     std::array<std::array<float, 9>, 3> shape_{};
     std::array<float, 3> radiance_{};
     Vec3f toward_sun_;

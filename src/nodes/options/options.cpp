@@ -136,7 +136,11 @@ void describe_sampling(Describe<Options>& d) {
     d.param("GI_volume_samples", &Options::GI_volume_samples,
             "The same for scattering in volumes.")
         .range(0, 64);
-    d.param("light_samples", &Options::light_samples, "Arnold's light samples a hit.").ignored();
+    d.param(
+         "light_samples", &Options::light_samples,
+         "Above 0: samples of all lights together where a path splits, squared; what lights say "
+         "themselves does not count.")
+        .range(0, 64);
     d.param("indirect_specular_blur", &Options::indirect_specular_blur,
             "Arnold's roughening of indirect highlights; never done here.")
         .ignored();

@@ -19,13 +19,18 @@ struct Matte {
         d.param("opacity", &Matte::opacity, "Below 1, rays pass straight through for the rest.")
             .range(0, 1);
         d.param("passthrough", &Matte::passthrough,
-                "Shader that is run for the AOVs that it writes.")
-            .pending();
+                "Shader that is run for the AOVs that it writes.");
         d.lobe(0, EventKind::Object, EventLobe::None, "", "The colour.");
         return d.done();
     }
 
-    void eval(const ShadePoint&, ClosureSet& out) const {
+    void eval(const ShadePoint& at, ClosureSet& out) const {
+        if (passthrough) {
+            // What it looks like goes nowhere.
+            ClosureSet unseen;
+            unseen.begin(at.wo, Frame::from_z_x(at.normal, at.tangent));
+            passthrough.closures(at, unseen);
+        }
         const Color visible = unit(opacity);
         out.transparent(kWhite - visible);
         out.matte(visible * (1 - unit(color.a)));

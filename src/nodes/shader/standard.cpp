@@ -21,6 +21,8 @@ enum Lobes : int {
     kEmission
 };
 
+enum class Distribution : std::int32_t { Beckmann, Ggx };
+
 struct Standard {
     float Kd = 0.7F;
     Color Kd_color{1, 1, 1};
@@ -28,6 +30,7 @@ struct Standard {
     float Ks = 0;
     Color Ks_color{1, 1, 1};
     float specular_roughness = 0.466905F, specular_anisotropy = 0.5F, specular_rotation = 0;
+    Distribution specular_distribution = Distribution::Ggx;
     bool specular_Fresnel = false;
     float Ksn = 0;
     float Kr = 0;
@@ -46,6 +49,8 @@ struct Standard {
           bounce_factor = 1;
     bool enable_glossy_caustics = false, enable_reflective_caustics = false,
          enable_refractive_caustics = false, enable_internal_reflections = true;
+    Color reflection_exit_color{0, 0, 0}, refraction_exit_color{0, 0, 0};
+    bool reflection_exit_use_environment = false, refraction_exit_use_environment = false;
     Color opacity{1, 1, 1};
     Vec3f normal{0, 0, 0};
 
@@ -136,6 +141,10 @@ void describe_specular(Describe<S>& d) {
     d.param("specular_rotation", &S::specular_rotation,
             "Turns the highlights; acts with specular_anisotropy.")
         .ignored();
+    d.param("specular_distribution", &S::specular_distribution,
+            "Of the microfacets; highlights are those of ggx here.")
+        .names({"beckmann", "ggx"})
+        .pending();
     d.param("specular_Fresnel", &S::specular_Fresnel, "Reflects more at the edge.");
     d.param("Ksn", &S::Ksn, "Reflectance face on, with specular_Fresnel.").range(0, 1);
     d.param("Kr", &S::Kr, "Weight of the mirror reflection.").range(0, 1);
@@ -174,6 +183,14 @@ void describe_rest(Describe<S>& d) {
             "Diffuse rays also see the refraction.");
     d.param("enable_internal_reflections", &S::enable_internal_reflections,
             "Rays inside of a clear body are reflected.");
+    for (const auto& [name, member] :
+         {std::pair{"reflection_exit_color", &S::reflection_exit_color},
+          std::pair{"refraction_exit_color", &S::refraction_exit_color}})
+        d.param(name, member, "Seen by rays past the depth limit; here that is black.").pending();
+    for (const auto& [name, member] :
+         {std::pair{"reflection_exit_use_environment", &S::reflection_exit_use_environment},
+          std::pair{"refraction_exit_use_environment", &S::refraction_exit_use_environment}})
+        d.param(name, member, "Such rays see the background; here they do not.").pending();
     d.param("opacity", &S::opacity, "Below 1, rays pass straight through for the rest.")
         .range(0, 1);
     d.param("normal", &S::normal, "Shading normal, world space; acts when linked.");

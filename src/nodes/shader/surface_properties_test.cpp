@@ -205,7 +205,7 @@ TEST(SurfaceProperties, EveryParameterActs) {
 }
 
 /// Shaders whose weights are the user's: they may add up to more than 1, as they do in Arnold.
-const std::set<std::string> kMayGain{"standard", "hair", "shadow_matte"};
+const std::set<std::string> kMayGain{"standard", "hair", "shadow_matte", "skin", "toon"};
 /// Tables of albedos are good to 1e-3; stretched lobes are estimated (ggx_compensation.h).
 constexpr float kGain = 1.006F;
 

@@ -12,7 +12,8 @@ namespace lightsieve {
 namespace {
 
 struct PhysicalSky {
-    float turbidity = 3, ground_albedo = 0.1F;
+    float turbidity = 3;
+    Color ground_albedo{0.1F, 0.1F, 0.1F};
     bool use_degrees = true;
     float elevation = 45, azimuth = 90;
     Vec3f sun_direction{0, 1, 0};
@@ -40,7 +41,7 @@ NodeType PhysicalSky::describe() {
         .hard_range(1, 10);
     d.param("ground_albedo", &PhysicalSky::ground_albedo,
             "How much light the ground throws back to the sky. Not linked.")
-        .hard_range(0, 1);
+        .range(0, 1);
     d.param("use_degrees", &PhysicalSky::use_degrees,
             "The sun is placed by elevation and azimuth; off: by sun_direction.");
     d.param("elevation", &PhysicalSky::elevation, "Of the sun over the horizon. Not linked.")
@@ -87,9 +88,10 @@ void PhysicalSky::prepare(NodeContext& context) {
             "write finite numbers; it is put into the zenith");
         sun = {0, 1, 0};
     }
-    const float air = std::isfinite(turbidity) ? turbidity : 3,
-                ground = std::isfinite(ground_albedo) ? ground_albedo : 0;
-    const auto kept = std::make_shared<const SkyModel>(air, ground, sun);
+    const float air = std::isfinite(turbidity) ? turbidity : 3;
+    const Color ground = is_finite(ground_albedo) ? ground_albedo : kBlack;
+    const auto kept =
+        std::make_shared<const SkyModel>(air, ground, sun, context.color_spaces().rendering());
     model = kept.get();
     context.keep(kept);
 }

@@ -43,6 +43,27 @@ Vec3f sun_at(float elevation_deg) {
     return {std::cos(e), std::sin(e), 0};
 }
 
+TEST(SkyModel, GroundsOfAColorTintTheSky) {
+    // What the ground throws back comes down again from all sides, in its colour.
+    const auto sky = [](Color ground) { return SkyModel(3, ground, sun_at(45)).sky({0, 1, 0}); };
+    const Color dark = sky(kBlack), green = sky({0, 0.8F, 0});
+    EXPECT_GT(green.g, dark.g * 1.02F);
+    EXPECT_LT(green.r / dark.r, green.g / dark.g);
+}
+
+TEST(SkyModel, IsTheSameLightInEverySpace) {
+    const ColorSpace linear{Primaries::Rec709, Transfer::Linear, false};
+    const Vec3f up{0.3F, 0.8F, 0.5F};
+    const SkyModel wide(4, Color::grey(0.2F), sun_at(30)),
+        narrow(4, Color::grey(0.2F), sun_at(30), linear);
+    const ColorConversion convert(kRenderingSpace, linear);
+    for (const auto& [a, b] :
+         {std::pair{convert(wide.sky(normalize(up))), narrow.sky(normalize(up))},
+          std::pair{convert(wide.sun()), narrow.sun()}})
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(a[c], b[c], 1e-4F * std::abs(b[c]) + 1e-6F);
+}
+
 TEST(SkyModel, ZenithIsThatOfTheFormula) {
     // The tables' own units, linear with the primaries of sRGB, by another implementation of the formula: turbidity 3 and
     // albedo 0.1 under suns of 45, 20 and 80 degrees; the last with turbidity 10 at 30 degrees.
@@ -56,7 +77,7 @@ TEST(SkyModel, ZenithIsThatOfTheFormula) {
          {Case{3, 45, {2.28955F, 3.93346F, 7.98183F}}, Case{3, 20, {1.19454F, 2.42410F, 4.70883F}},
           Case{3, 80, {10.35043F, 12.37258F, 15.96671F}},
           Case{10, 30, {5.04209F, 5.97968F, 8.06250F}}}) {
-        const SkyModel model(c.turbidity, 0.1F, sun_at(c.elevation));
+        const SkyModel model(c.turbidity, Color::grey(0.1F), sun_at(c.elevation));
         const Color zenith = rec709(model.sky({0, 1, 0})) * (kLux / 683);
         for (int i = 0; i < 3; ++i)
             EXPECT_NEAR(zenith[i] / c.zenith[i], 1, 1e-3F) << c.turbidity << " " << c.elevation;
@@ -65,20 +86,20 @@ TEST(SkyModel, ZenithIsThatOfTheFormula) {
 
 TEST(SkyModel, DaylightHasItsUsualFigures) {
     // Clear sky, sun at 45 degrees: about 16 klx from the sky and 80 klx facing the sun, which is yellower than the sky.
-    const SkyModel model(3, 0.1F, sun_at(45));
+    const SkyModel model(3, Color::grey(0.1F), sun_at(45));
     const float sky = luminance_of(irradiance([&](Vec3f d) { return model.sky(d); })) * kLux;
     EXPECT_NEAR(sky, 15800, 200);
     EXPECT_NEAR(luminance_of(model.sun()) * kLux, 80000, 8000);
     EXPECT_GT(model.sun().r / model.sun().b, 1.1F);
     EXPECT_LT(model.sky({0, 1, 0}).r, 0.6F * model.sky({0, 1, 0}).b);
     // Low suns are dim and red; haze takes from the sun and gives to the sky.
-    const SkyModel low(3, 0.1F, sun_at(3)), hazy(8, 0.1F, sun_at(45));
+    const SkyModel low(3, Color::grey(0.1F), sun_at(3)), hazy(8, Color::grey(0.1F), sun_at(45));
     EXPECT_LT(luminance_of(low.sun()), 0.3F * luminance_of(model.sun()));
     EXPECT_GT(low.sun().r / low.sun().b, 3);
     EXPECT_LT(luminance_of(hazy.sun()), 0.7F * luminance_of(model.sun()));
     EXPECT_GT(luminance_of(irradiance([&](Vec3f d) { return hazy.sky(d); })) * kLux, 20000);
     // Bright ground brightens the sky.
-    EXPECT_GT(luminance_of(SkyModel(3, 0.9F, sun_at(45)).sky({0, 1, 0})),
+    EXPECT_GT(luminance_of(SkyModel(3, Color::grey(0.9F), sun_at(45)).sky({0, 1, 0})),
               luminance_of(model.sky({0, 1, 0})));
 }
 
@@ -86,7 +107,7 @@ TEST(SkyModel, EveryPlaceOfEverySkyIsFinite) {
     for (const float turbidity : {-5.0F, 1.0F, 1.5F, 9.99F, 10.0F, 1e9F})
         for (const float elevation : {-90.0F, -5.0F, 0.0F, 1.0F, 60.0F, 90.0F})
             for (const float albedo : {-1.0F, 0.5F, 2.0F}) {
-                const SkyModel model(turbidity, albedo, sun_at(elevation));
+                const SkyModel model(turbidity, Color::grey(albedo), sun_at(elevation));
                 EXPECT_TRUE(is_finite(model.sun()));
                 for (int i = 0; i <= 20; ++i) {
                     const Color c = model.sky(sun_at(static_cast<float>(9 * i)));
@@ -155,7 +176,7 @@ TEST(PhysicalSky, TheSunsLightDoesNotDependOnItsSize) {
     for (const float size : {4.5F, 10.0F, 60.0F}) {
         sky.node.set("sun_size", size);
         sky.prepare();
-        const SkyModel model(3, 0.1F, {0, 1, 0});
+        const SkyModel model(3, Color::grey(0.1F), {0, 1, 0});
         const Color sum = irradiance([&](Vec3f d) { return sky.at(d); }, 600);
         EXPECT_NEAR(sum.g / model.sun().g, 1, 0.05F) << size;
         // Asked for its mean over a footprint it is wider and as bright in all.
