@@ -46,6 +46,8 @@ static_assert(std::is_sorted(kMissing.begin(), kMissing.end(),
 }  // namespace
 
 std::string_view lost_without(std::string_view node_type) {
+    if (node_type.starts_with("imager_"))
+        return "imagers change the finished picture: files have it as it is rendered";
     const auto* found = std::lower_bound(
         kMissing.begin(), kMissing.end(), node_type,
         [](const Missing& missing, std::string_view type) { return missing.type < type; });
