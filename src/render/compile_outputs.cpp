@@ -101,24 +101,18 @@ void Compiler::find_culling() {
     if (plan.wants_beauty) return;
     constexpr float kNoClamp = 1e30F;
     const bool adaptive = s.samples_max > s.samples && !plan.adaptive_layer;
-    const bool shows_light = std::ranges::any_of(
-        plan.layers, [](const PlannedLayer& layer) { return is_light(layer.source); });
-    const auto lint = [&](const std::string& what, std::string_view param, std::string hint) {
-        if (shows_light)
-            diagnostics_.lint(Code::OutputCulling, what, option_place(param), std::move(hint));
-    };
-    if (s.sample_clamp < kNoClamp || adaptive)
-        return lint("all light is traced, though no output is the beauty: " +
-                        std::string(adaptive ? "adaptive sampling" : "AA_sample_clamp") +
-                        " looks at it",
-                    adaptive ? "enable_adaptive_sampling" : "AA_sample_clamp",
-                    "without it only what the outputs can show is traced");
-    scene_->culling = s.indirect_clamp < kNoClamp ? Culling::Paths : Culling::Lobes;
-    if (scene_->culling == Culling::Paths)
-        lint(
-            "lobes are sampled though no output shows their light: indirect_sample_clamp looks "
-            "at it",
-            "indirect_sample_clamp", "with indirect_sample_clamp 1e30 they are left out");
+    if (!adaptive && s.sample_clamp >= kNoClamp) {
+        scene_->culling = s.indirect_clamp < kNoClamp ? Culling::Paths : Culling::Lobes;
+        return;
+    }
+    const char* param = adaptive ? "enable_adaptive_sampling" : "AA_sample_clamp";
+    if (std::ranges::any_of(plan.layers,
+                            [](const PlannedLayer& layer) { return is_light(layer.source); }))
+        diagnostics_.lint(
+            Code::OutputCulling,
+            "all light is traced, though no output is the beauty: " + std::string(param) +
+                " looks at it",
+            option_place(param), "without it only what the outputs can show is traced");
 }
 
 void Compiler::find_adaptive_layer() {
