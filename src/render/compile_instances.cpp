@@ -339,38 +339,74 @@ void Compiler::leaves_of_instancer(const NodeInstance& node, const ShapeGeometry
     }
 }
 
-/// How many leaves find_leaves would give, before any is made. What places itself counts as nothing here.
-std::uint64_t Compiler::count_leaves(const NodeInstance& node, bool as_source) {
-    if (!as_source && node.type().shape_common(node.block())->visibility == 0) return 0;
-    const auto [known, added] = leaf_counts_.try_emplace(&node, 0);
-    if (!added) return known->second;
-    std::uint64_t count = 0;
-    const auto add = [&](const NodeInstance* placed, bool source) {
+/// What a node places directly, each source once; nothing for a leaf.
+std::vector<Compiler::PlacedSource> Compiler::sources_of(const NodeInstance& node) {
+    std::vector<PlacedSource> out;
+    const auto add = [&](const NodeInstance* placed, bool as_source, std::uint64_t times) {
         if (placed == nullptr || placed->type().shape_common == nullptr) return;
-        // Saturating: nothing counts further than past the limit.
-        count = std::min(count + count_leaves(*placed, source), kMaxLeaves + 1);
+        if (!as_source && placed->type().shape_common(placed->block())->visibility == 0) return;
+        out.push_back({placed, times});
     };
     if (const NodeScope* inside = graph_.contents(node); inside != nullptr) {
         for (const auto& shape : inside->nodes)
-            if (shape->kind() == NodeKind::Shape) add(shape.get(), false);
+            if (shape->kind() == NodeKind::Shape) add(shape.get(), false, 1);
     } else if (const ShapeGeometry* geometry = shared_geometry(node); geometry == nullptr) {
-        count = 0;
+        return out;
     } else if (const InstanceList* list = geometry->instances; list != nullptr) {
+        std::vector<std::uint64_t> times(list->nodes.n);
         for (std::uint32_t i = 0; i < list->size(); ++i) {
             const std::uint32_t source = list->value(list->node_idxs, i, 0U);
-            if (source < list->nodes.n) add(list->nodes[source].node, true);
+            if (source < list->nodes.n) ++times[source];
         }
+        for (std::uint32_t i = 0; i < list->nodes.n; ++i)
+            if (times[i] > 0) add(list->nodes[i].node, true, times[i]);
     } else if (geometry->instance_of) {
-        add(geometry->instance_of.node, true);
-    } else {
-        count = 1;
+        add(geometry->instance_of.node, true, 1);
     }
-    return leaf_counts_[&node] = count;
+    return out;
+}
+
+/// Whether a node is geometry itself and places no other.
+bool Compiler::is_leaf(const NodeInstance& node) {
+    if (graph_.contents(node) != nullptr) return false;
+    const ShapeGeometry* geometry = shared_geometry(node);
+    return geometry != nullptr && geometry->instances == nullptr && !geometry->instance_of;
+}
+
+/// How many leaves find_leaves would give, before any is made. What places itself counts as nothing here. Not recursive:
+/// chains of instances may be longer than the stack.
+std::uint64_t Compiler::count_leaves(const NodeInstance& node) {
+    if (node.type().shape_common(node.block())->visibility == 0) return 0;
+    struct Open {
+        const NodeInstance* node;
+        bool expanded = false;
+    };
+    std::vector<Open> open{{&node}};
+    while (!open.empty()) {
+        const NodeInstance& top = *open.back().node;
+        if (!open.back().expanded) {
+            open.back().expanded = true;
+            if (!leaf_counts_.try_emplace(&top, 0).second) {
+                open.pop_back();
+                continue;
+            }
+            for (const PlacedSource& source : sources_of(top))
+                open.push_back({source.node});
+            continue;
+        }
+        std::uint64_t count = is_leaf(top) ? 1 : 0;
+        // Saturating: nothing counts further than past the limit.
+        for (const PlacedSource& source : sources_of(top))
+            count = std::min(count + source.times * leaf_counts_[source.node], kMaxLeaves + 1);
+        leaf_counts_[&top] = count;
+        open.pop_back();
+    }
+    return leaf_counts_[&node];
 }
 
 /// Places a node of the scene itself with all that it holds.
 void Compiler::place_all(const NodeInstance& node) {
-    n_leaves_ += count_leaves(node, false);
+    n_leaves_ += count_leaves(node);
     if (n_leaves_ > kMaxLeaves) {
         n_leaves_ = 0;  // what comes after it may be placed
         return diagnostics_.error(

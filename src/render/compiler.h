@@ -110,7 +110,14 @@ class Compiler {
     /// A lineage with one more step, kept by the scene. lineage: null for the shape itself.
     [[nodiscard]] const Lineage* extend(const Lineage* lineage, const NodeInstance& node,
                                         std::uint32_t n_instances);
-    [[nodiscard]] std::uint64_t count_leaves(const NodeInstance& node, bool as_source);
+    /// A shape that a node places, and how often.
+    struct PlacedSource {
+        const NodeInstance* node = nullptr;
+        std::uint64_t times = 0;
+    };
+    std::vector<PlacedSource> sources_of(const NodeInstance& node);
+    bool is_leaf(const NodeInstance& node);
+    std::uint64_t count_leaves(const NodeInstance& node);
     void place_all(const NodeInstance& node);
 
     // compile_objects.cpp

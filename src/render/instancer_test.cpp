@@ -259,6 +259,12 @@ TEST(Instancers, RecursionAndExplosionsAreErrors) {
     nested += node("ginstance", "all", " node i5");
     EXPECT_NE(errors_of(nested).find("limit-instances"), std::string::npos) << errors_of(nested);
 
+    // Longer than the stack is deep.
+    std::string chain = four_columns() + tile("n0", "red");
+    for (int i = 1; i <= 100'000; ++i)
+        chain += node("ginstance", "n" + std::to_string(i), " node n" + std::to_string(i - 1));
+    EXPECT_NE(errors_of(chain).find("deep"), std::string::npos);
+
     const std::string no_shape = four_columns() + instancer("one", " nodes red\n" + matrices({0}));
     EXPECT_NE(errors_of(no_shape).find("not a shape"), std::string::npos) << errors_of(no_shape);
 }

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/memory.h"
 #include "core/parallel.h"
 #include "core/version.h"
 #include "lpe/path.h"
@@ -81,6 +82,7 @@ class Renderer {
   private:
     [[nodiscard]] ImageHeader header_of(const PlannedDriver& driver, std::size_t index) const;
     void open_drivers();
+    void make_room();
     void render_bucket(Worker& worker, std::size_t index, const BucketRect& rect);
     void render_pass(Worker& worker, std::size_t bucket, std::size_t pass, const BucketRect& rect);
     /// The bucket's state of an earlier render, if there is one.
@@ -172,6 +174,24 @@ Worker& Renderer::worker() {
     return *workers_.back();
 }
 
+/// Takes the memory for layers that are kept. Throws if there is not enough: taking it would end the program.
+void Renderer::make_room() {
+    const std::size_t n_pixels =
+        static_cast<std::size_t>(result_.width) * static_cast<std::size_t>(result_.height);
+    std::size_t n_bytes = 0;
+    for (const PlannedLayer& layer : scene_.plan.layers)
+        n_bytes += n_pixels * layer.info.n_channels * sizeof(float);
+    if (n_bytes > available_memory())
+        throw InputError({Code::LimitMemory,
+                          "the layers need " + std::to_string(n_bytes >> 20U) +
+                              " MiB of memory, more than there is",
+                          {},
+                          "render fewer layers or a region, or into files"});
+    for (const PlannedLayer& layer : scene_.plan.layers)
+        result_.layers.push_back(
+            {layer.info, std::vector<float>(n_pixels * layer.info.n_channels)});
+}
+
 RenderResult Renderer::run() {
     for (const Pass& pass : scene_.plan.passes)
         if (!pass.camera)
@@ -184,12 +204,7 @@ RenderResult Renderer::run() {
     const RenderSettings& s = scene_.settings;
     result_.width = s.region.x1 - s.region.x0 + 1;
     result_.height = s.region.y1 - s.region.y0 + 1;
-    if (capture_)
-        for (const PlannedLayer& layer : scene_.plan.layers)
-            result_.layers.push_back(
-                {layer.info, std::vector<float>(static_cast<std::size_t>(result_.width) *
-                                                static_cast<std::size_t>(result_.height) *
-                                                layer.info.n_channels)});
+    if (capture_) make_room();
     samples_total_ = static_cast<std::uint64_t>(result_.width) *
                      static_cast<std::uint64_t>(result_.height) *
                      static_cast<std::uint64_t>(s.samples_max) * scene_.plan.passes.size();

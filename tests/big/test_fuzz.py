@@ -16,6 +16,7 @@ pytestmark = pytest.mark.big
 BUILD = ROOT / "build/fuzz"
 COMPILER = "clang++-16"
 PACKAGES = ("clang-16", "libclang-rt-16-dev")
+DICTIONARIES = {"ass": "ass.dict", "packed": "ass.dict"}
 TARGETS = sorted(path.stem.removesuffix("_fuzz") for path in (ROOT / "fuzz").glob("*_fuzz.cpp"))
 
 
@@ -59,8 +60,8 @@ def build() -> Path:
 def test_a_minute_without_a_finding(build: Path, target: str, tmp_path: Path) -> None:
     done = run(
         build / f"{target}_fuzz",
-        "-dict=fuzz/lpe.dict",
-        "-max_len=200",
+        f"-dict=fuzz/{DICTIONARIES.get(target, 'lpe.dict')}",
+        f"-max_len={2000 if target == 'ass' else 200}",
         "-timeout=30",
         "-max_total_time=60",
         f"-artifact_prefix={tmp_path}/",

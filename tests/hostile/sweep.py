@@ -21,6 +21,9 @@ from tests.hostile.running import TOOL, Ending, run_tool
 SECONDS = 120.0
 """For one case, with sanitizers, on a machine that does other things as well."""
 
+PATIENCE = {"amounts": 10.0}
+"""Groups whose cases may take so many times as long."""
+
 QUICK = ("--spp", "1", "--size", "8x6", "--threads", "2")
 """Options for scenes whose size and samples are not the point."""
 
@@ -101,9 +104,9 @@ def main() -> None:
     for group in given.groups:
         with tempfile.TemporaryDirectory() as folder:
             cases = itertools.islice(cases_of(group, Path(folder)), given.first)
-            print(
-                group, sweep(cases, Path(folder), tool=given.tool.resolve(), seconds=given.seconds)
-            )
+            seconds = given.seconds * PATIENCE.get(group, 1)
+            report = sweep(cases, Path(folder), tool=given.tool.resolve(), seconds=seconds)
+            print(group, report, flush=True)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from tests.conftest import ROOT
 from tests.hostile import absurdities, damage
 from tests.hostile.mutation import mutate_bytes, mutate_text
 from tests.hostile.running import TOOL, judge, run_command, run_tool
-from tests.hostile.sweep import QUICK, Case, cases_of, run_case, sweep
+from tests.hostile.sweep import PATIENCE, QUICK, SECONDS, Case, cases_of, run_case, sweep
 
 GROUPS = [function.__name__ for function in absurdities.GROUPS]
 EVERY = 40
@@ -122,5 +122,6 @@ def test_the_sanitizers_watch(tool: Path, tmp_path: Path) -> None:
 @pytest.mark.big
 @pytest.mark.parametrize("group", ["damaged-scenes", "damaged-files", *GROUPS])
 def test_every_case_ends_in_a_picture_or_a_message(tool: Path, group: str, tmp_path: Path) -> None:
-    report = sweep(cases_of(group, tmp_path), tmp_path, tool=tool)
+    seconds = SECONDS * PATIENCE.get(group, 1)
+    report = sweep(cases_of(group, tmp_path), tmp_path, tool=tool, seconds=seconds)
     assert not report.findings, str(report)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/memory.h"
 #include "io/atomic_file.h"
 
 namespace lightsieve {
@@ -77,9 +78,18 @@ bool PictureDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
         it != header.metadata.end() && std::holds_alternative<std::string>(it->second)) {
         spec_.metadata["Software"] = "Lightsieve " + std::get<std::string>(it->second);
     }
-    pixels_.assign(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(spec_.height) *
-                       static_cast<std::size_t>(spec_.n_channels),
-                   0.0F);
+    const std::size_t n_values = static_cast<std::size_t>(spec_.width) *
+                                 static_cast<std::size_t>(spec_.height) *
+                                 static_cast<std::size_t>(spec_.n_channels);
+    if (n_values > available_memory() / sizeof(float)) {
+        diagnostics.error(Code::LimitMemory,
+                          "\"" + path_ + "\" needs " +
+                              std::to_string((n_values * sizeof(float)) >> 20U) +
+                              " MiB of memory, more than there is",
+                          where_, "driver_exr with tiles needs none of that");
+        return false;
+    }
+    pixels_.assign(n_values, 0.0F);
     try {
         const AtomicFile writable(path_);  // found out before the first ray; removed at once
     } catch (const InputError& e) {

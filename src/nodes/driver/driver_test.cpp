@@ -314,6 +314,17 @@ TEST_F(DriverTest, PicturesHoldOneLayerOfNumbersInZeroToOne) {
     }
 }
 
+TEST_F(DriverTest, PicturesThatDoNotFitIntoMemoryAreRefusedBeforeTheFirstRay) {
+    TestNode node(node_driver_png());
+    ImageHeader header = header_of({layer("RGBA", "RGBA", 4)});
+    header.data_width = header.data_height = 2'000'000;
+    Diagnostics diagnostics;
+    EXPECT_FALSE(make(node, "large.png")->open(header, diagnostics));
+    ASSERT_EQ(diagnostics.items().size(), 1U);
+    EXPECT_EQ(diagnostics.items()[0].code, Code::LimitMemory);
+    EXPECT_EQ(n_files(), 0U);
+}
+
 TEST_F(DriverTest, UnwritableFoldersAreFoundBeforeTheFirstRay) {
     for (NodeType (*type)() : {&node_driver_exr, &node_driver_png, &node_driver_tiff}) {
         TestNode node(type());

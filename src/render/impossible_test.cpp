@@ -1,8 +1,9 @@
-// Rays and placements beyond what the ray library can take: nothing is met, nothing ends the program.
+// Rays and placements beyond what the ray library can take, pictures beyond what memory can: nothing ends the program.
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "core/error.h"
 #include "render/accel.h"
 #include "render/testing/test_scene.h"
 
@@ -69,6 +70,20 @@ TEST(ImpossibleRays, CamerasThatSendThemGiveABlackPicture) {
         const Picture picture =
             render(frame_text(4, 4, 1, camera) + node("sphere", "ball", " radius 1"));
         EXPECT_EQ(picture.mean_alpha("RGBA"), 0) << camera;
+    }
+}
+
+TEST(ImpossiblePictures, LayersThatDoNotFitIntoMemoryAreRefusedBeforeTheFirstRay) {
+    RenderOptions options = in_memory();
+    for (int i = 0; i < 100; ++i)
+        options.lpes.push_back("a" + std::to_string(i) + " C.*");
+    const TestScene scene(frame_text(32768, 32768, 1, persp_camera({0, 0, 5}, {0, 0, 0}, 40)),
+                          options);
+    try {
+        static_cast<void>(render(scene));
+        FAIL() << "100 layers of 2^30 pixels fit into memory";
+    } catch (const InputError& e) {
+        EXPECT_EQ(e.errors().at(0).code, Code::LimitMemory);
     }
 }
 

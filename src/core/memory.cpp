@@ -1,0 +1,36 @@
+#include "core/memory.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+namespace lightsieve {
+
+namespace {
+
+constexpr std::size_t kUnknown = std::numeric_limits<std::size_t>::max();
+
+/// The first number after `key` in a file of words; kUnknown if there is none ("max" stands for no limit).
+std::size_t number_in(const std::string& path, const std::string& key = "") {
+    std::ifstream in(path);
+    std::string word;
+    while (!key.empty() && in >> word && word != key) {
+    }
+    std::size_t number = kUnknown;
+    return in >> number ? number : kUnknown;
+}
+
+}  // namespace
+
+std::size_t available_memory(const std::string& root) {
+    const std::size_t kilobytes = number_in(root + "/proc/meminfo", "MemAvailable:");
+    std::size_t bytes = kilobytes == kUnknown ? kUnknown : kilobytes * 1024;
+    // A container sees its own control group as the root.
+    const std::string group = root + "/sys/fs/cgroup/memory.";
+    const std::size_t limit = number_in(group + "max"), used = number_in(group + "current");
+    if (limit != kUnknown && used != kUnknown)
+        bytes = std::min(bytes, limit - std::min(limit, used));
+    return bytes;
+}
+
+}  // namespace lightsieve

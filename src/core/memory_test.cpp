@@ -1,0 +1,34 @@
+// What the system says about its memory.
+#include "core/memory.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace lightsieve {
+namespace {
+
+TEST(Memory, WhatTheSystemSays) {
+    const std::string root = testing::TempDir() + "lightsieve_memory";
+    std::filesystem::create_directories(root + "/proc");
+    std::filesystem::create_directories(root + "/sys/fs/cgroup");
+    EXPECT_EQ(available_memory(root), std::numeric_limits<std::size_t>::max());
+    std::ofstream(root + "/proc/meminfo")
+        << "MemTotal:  9000 kB\nMemAvailable:   2000 kB\nCached: 5 kB\n";
+    EXPECT_EQ(available_memory(root), 2000U * 1024);
+    std::ofstream(root + "/sys/fs/cgroup/memory.max") << "max\n";
+    std::ofstream(root + "/sys/fs/cgroup/memory.current") << "900000\n";
+    EXPECT_EQ(available_memory(root), 2000U * 1024);
+    std::ofstream(root + "/sys/fs/cgroup/memory.max") << "1000000\n";
+    EXPECT_EQ(available_memory(root), 100000U);
+    std::ofstream(root + "/sys/fs/cgroup/memory.max") << "1\n";
+    EXPECT_EQ(available_memory(root), 0U);
+    std::filesystem::remove_all(root);
+}
+
+TEST(Memory, ThereIsSomeHere) { EXPECT_GT(available_memory(), 1U << 20U); }
+
+}  // namespace
+}  // namespace lightsieve
