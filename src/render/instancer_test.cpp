@@ -261,8 +261,10 @@ TEST(Instancers, RecursionAndExplosionsAreErrors) {
 
     // Longer than the stack is deep.
     std::string chain = four_columns() + tile("n0", "red");
-    for (int i = 1; i <= 100'000; ++i)
-        chain += node("ginstance", "n" + std::to_string(i), " node n" + std::to_string(i - 1));
+    for (int i = 1; i <= 30'000; ++i)
+        chain += node("ginstance", "n" + std::to_string(i),
+                      " visibility 0\n node n" + std::to_string(i - 1));
+    chain += node("ginstance", "end", " node n30000");
     EXPECT_NE(errors_of(chain).find("deep"), std::string::npos);
 
     const std::string no_shape = four_columns() + instancer("one", " nodes red\n" + matrices({0}));
