@@ -1,11 +1,11 @@
 #include "python/errors.h"
 
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/string_view.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <string_view>
+
+#include "python/text.h"
 
 namespace nb = nanobind;
 

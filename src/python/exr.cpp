@@ -1,7 +1,5 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/map.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
@@ -9,6 +7,7 @@
 
 #include "io/exr_tools.h"
 #include "python/layers.h"
+#include "python/text.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;

@@ -1,7 +1,5 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
@@ -14,6 +12,7 @@
 #include "lpe/parse.h"
 #include "python/errors.h"
 #include "python/layers.h"
+#include "python/text.h"
 
 namespace nb = nanobind;
 namespace dialects = lightsieve::lpe::dialects;

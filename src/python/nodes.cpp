@@ -1,8 +1,6 @@
 #include "nodes/all_nodes.h"
 
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstring>
@@ -10,6 +8,7 @@
 
 #include "lpe/match.h"
 #include "python/layers.h"
+#include "python/text.h"
 #include "scene/node_type.h"
 #include "scene/registry.h"
 

@@ -3,8 +3,6 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
@@ -20,6 +18,7 @@
 #include "python/errors.h"
 #include "python/interruptible.h"
 #include "python/layers.h"
+#include "python/text.h"
 #include "render/scene.h"
 #include "scene/ass_read.h"
 #include "scene/graph.h"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import signal
@@ -196,3 +197,24 @@ def test_a_signal_ends_a_render_and_keeps_what_was_done(
     assert "wrote still.exr" in out
     assert "--resume goes on from still.exr.checkpoint" in out
     assert sorted(os.listdir(tmp_path)) == ["still.ass", "still.exr", "still.exr.checkpoint"]
+
+
+def test_names_need_not_be_utf8(run: Run, tmp_path: Path) -> None:
+    # As exporters on older systems write them.
+    scene = (
+        'options { outputs 2 1 STRING "RGBA RGBA f d" "RGBA_* RGB f d" }\nbox_filter { name f }\n'
+        'driver_exr { name d filename "café.exr" }\npoint_light { name "lumière" aov "clé" }\n'
+        'persp_camera { name c }\nsphere { name "sphère" shader "là" }\n'
+    )
+    (tmp_path / "scene.ass").write_bytes(scene.encode("latin-1"))
+    document = run("check", "scene.ass", "--json").json
+    assert "RGBA_cl\\udce9" in json.dumps(document)
+    done = subprocess.run(
+        [sys.executable, "-m", "lightsieve", "render", "scene.ass", *FAST],
+        cwd=tmp_path,
+        capture_output=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert b'"l\xe0"' in done.stderr, "the name of the missing shader"
+    assert (tmp_path / os.fsdecode(b"caf\xe9.exr")).is_file()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import pkgutil
 import sys
@@ -129,6 +130,10 @@ def main() -> NoReturn:
     from lightsieve import _lpe
 
     _lpe.exit_3_on_bug()
+    # Names and paths of scenes need not be UTF-8: they are printed as the bytes that they are.
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="surrogateescape")
     try:
         pretty = sys.stderr.isatty() and sys.stdout.isatty()
         build_app(pretty, command_files(sys.argv[1:]))()
