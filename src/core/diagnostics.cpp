@@ -49,6 +49,13 @@ void Diagnostics::add(Error error) {
     if (count <= limit) items_.push_back(std::move(error));
 }
 
+void Diagnostics::add(const InputError& thrown, const SourceSpan& otherwise) {
+    for (Error error : thrown.errors()) {
+        if (!error.where.known()) error.where = otherwise;
+        add(std::move(error));
+    }
+}
+
 void Diagnostics::error(Code code, std::string message, SourceSpan where, std::string hint) {
     add({code, std::move(message), std::move(where), std::move(hint), {}, Severity::Error});
 }

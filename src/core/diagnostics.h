@@ -25,6 +25,8 @@ class Diagnostics {
 
     /// Adds by the error's own severity. Identical reports (code, message, place) are counted once.
     void add(Error error);
+    /// All that was thrown; errors without a place are at `otherwise`.
+    void add(const InputError& thrown, const SourceSpan& otherwise = {});
     void error(Code code, std::string message, SourceSpan where = {}, std::string hint = {});
     void warning(Code code, std::string message, SourceSpan where = {}, std::string hint = {});
     void lint(Code code, std::string message, SourceSpan where = {}, std::string hint = {});

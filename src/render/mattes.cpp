@@ -146,8 +146,7 @@ bool write_sidecars(const AovPlan& plan, const PlannedDriver& driver, Diagnostic
             file.commit();
         }
     } catch (const InputError& e) {
-        for (const Error& error : e.errors())
-            diagnostics.add(error);
+        diagnostics.add(e);
         return false;
     }
     return true;

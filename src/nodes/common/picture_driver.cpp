@@ -97,7 +97,7 @@ bool PictureDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
     try {
         const AtomicFile writable(path_);  // found out before the first ray; removed at once
     } catch (const InputError& e) {
-        report(e, diagnostics);
+        diagnostics.add(e, where_);
         return false;
     }
     return true;
@@ -163,17 +163,10 @@ bool PictureDriver::close(Diagnostics& diagnostics) {
     try {
         write_picture(path_, spec_, pixels_);
     } catch (const InputError& e) {
-        report(e, diagnostics);
+        diagnostics.add(e, where_);
         return false;
     }
     return true;
-}
-
-void PictureDriver::report(const InputError& error, Diagnostics& diagnostics) const {
-    for (Error e : error.errors()) {
-        if (!e.where.known()) e.where = where_;
-        diagnostics.add(std::move(e));
-    }
 }
 
 }  // namespace lightsieve

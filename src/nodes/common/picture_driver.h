@@ -45,7 +45,6 @@ class PictureDriver final : public Driver {
     void take_over(Diagnostics& diagnostics);
     /// One pixel of the layer as it is to be stored.
     void store(const float* pixel, float* out) const;
-    void report(const InputError& error, Diagnostics& diagnostics) const;
 
     std::string path_;
     SourceSpan where_;

@@ -8,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/exr_deep.h"
 #include "nodes/common/deep_merge.h"
+#include "nodes/common/exr_layers.h"
 #include "scene/describe.h"
 #include "scene/driver.h"
 #include "scene/node_context.h"
@@ -65,7 +66,10 @@ NodeType DriverDeepExr::describe() {
 class DeepExrDriver final : public Driver {
   public:
     DeepExrDriver(const DriverDeepExr& node, NodeContext& context)
-        : node_(node), path_(node.filename.str()), where_(context.where("filename")) {}
+        : node_(node),
+          path_(node.filename.str()),
+          where_(context.where("filename")),
+          primaries_(context.color_spaces().rendering().primaries) {}
 
     [[nodiscard]] bool deep() const override { return true; }
     [[nodiscard]] std::string path() const override { return path_; }
@@ -80,11 +84,11 @@ class DeepExrDriver final : public Driver {
         return values.empty() ? none : values[std::min<std::size_t>(layer, values.n - 1)];
     }
     void add_layer(const ImageLayer& layer, std::size_t index);
-    bool report(const InputError& error, Diagnostics& diagnostics) const;
 
     DriverDeepExr node_;
     std::string path_;
     SourceSpan where_;
+    Primaries primaries_;  ///< of the rendering space
     std::optional<ExrWriteSpec> spec_;
     std::size_t n_values_ = 0;
     std::vector<float> value_tolerance_;  ///< by value
@@ -106,29 +110,12 @@ void DeepExrDriver::add_layer(const ImageLayer& layer, std::size_t index) {
         value_tolerance_.push_back(of_layer(node_.layer_tolerance, index, -1.0F));
     }
     n_values_ += n;
-    const std::string prefix = "arnold/aovs/" + layer.name + "/";
-    spec_->attributes[prefix + "source"] = layer.aov;
-    spec_->attributes[prefix + "filter"] = layer.filter;
-    spec_->attributes[prefix + "filter_width"] = layer.filter_width;
-    if (!layer.expression.empty()) spec_->attributes[prefix + "lpe_expression"] = layer.expression;
+    describe_exr_layer(layer, spec_->attributes);
 }
 
 bool DeepExrDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
-    constexpr int kMinTile = 16, kMaxTile = 1024, kDefaultTile = 64;
-    ExrWriteSpec& spec = spec_.emplace();
-    spec.width = header.width;
-    spec.height = header.height;
-    spec.data_x = header.data_x;
-    spec.data_y = header.data_y;
-    spec.data_width = header.data_width;
-    spec.data_height = header.data_height;
-    spec.pixel_aspect_ratio = header.pixel_aspect_ratio;
-    spec.tiled = node_.tiled;
-    spec.tile_size = header.bucket_size >= kMinTile && header.bucket_size <= kMaxTile
-                         ? header.bucket_size
-                         : kDefaultTile;
+    ExrWriteSpec& spec = spec_.emplace(exr_spec(header, node_.tiled, primaries_));
     spec.compression = ExrCompression::Zips;
-    spec.attributes.insert(header.metadata.begin(), header.metadata.end());
     // Sums of layers are proved for flat files.
     spec.attributes.erase("lightsieve/partitions");
     const auto type = [](bool half) { return half ? ExrPixelType::Half : ExrPixelType::Float; };
@@ -147,7 +134,8 @@ bool DeepExrDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
         const AtomicFile writable(path_);  // found out before the first ray; removed at once
     } catch (const InputError& e) {
         spec_.reset();
-        return report(e, diagnostics);
+        diagnostics.add(e, where_);
+        return false;
     }
     return true;
 }
@@ -192,17 +180,10 @@ bool DeepExrDriver::close(Diagnostics& diagnostics) {
     try {
         write_deep_exr(path_, *spec_, out);
     } catch (const InputError& e) {
-        return report(e, diagnostics);
+        diagnostics.add(e, where_);
+        return false;
     }
     return true;
-}
-
-bool DeepExrDriver::report(const InputError& error, Diagnostics& diagnostics) const {
-    for (Error e : error.errors()) {
-        if (!e.where.known()) e.where = where_;
-        diagnostics.add(std::move(e));
-    }
-    return false;
 }
 
 std::unique_ptr<Driver> DriverDeepExr::make_driver(NodeContext& context) const {

@@ -11,6 +11,7 @@
 #include "io/exr_read.h"
 #include "io/exr_write.h"
 #include "nodes/common/exr_canvas.h"
+#include "nodes/common/exr_layers.h"
 #include "scene/describe.h"
 #include "scene/driver.h"
 #include "scene/node_context.h"
@@ -88,18 +89,6 @@ std::vector<std::string> channel_names(const ImageLayer& layer, bool alone,
     for (const std::string& suffix : suffixes(layer))
         names.push_back(bare ? suffix.substr(1) : layer.name + suffix);
     return names;
-}
-
-/// What each layer is, as `arnold/aovs/<layer>/...`.
-void describe_layer(const ImageLayer& layer, std::map<std::string, ExrAttribute>& attributes) {
-    const std::string prefix = "arnold/aovs/" + layer.name + "/";
-    attributes[prefix + "source"] = layer.aov;
-    attributes[prefix + "filter"] = layer.filter;
-    attributes[prefix + "filter_width"] = layer.filter_width;
-    if (!layer.light_group.empty()) attributes[prefix + "light_group"] = layer.light_group;
-    if (layer.expression.empty()) return;
-    attributes[prefix + "lpe"] = 1;
-    attributes[prefix + "lpe_expression"] = layer.expression;
 }
 
 /// Numbers separated by blanks; empty if there is anything else or not `n` of them.
@@ -197,7 +186,6 @@ class ExrDriver final : public Driver {
     void write_around(const ImageHeader& header, const ExrWriteSpec& spec, const ExrFile& old);
     void write_planes(int x, int y, int width, int height, std::span<const ExrPlane> planes);
     void keep_exact(const ImageHeader& header, Diagnostics& diagnostics);
-    bool report(const InputError& error, Diagnostics& diagnostics) const;
 
     DriverExr node_;
     std::string path_;
@@ -213,24 +201,11 @@ class ExrDriver final : public Driver {
 };
 
 ExrWriteSpec ExrDriver::make_spec(const ImageHeader& header) const {
-    // Buckets of other sizes than these make poor tiles: the writer gathers them.
-    constexpr int kMinTile = 16, kMaxTile = 1024, kDefaultTile = 64;
-    ExrWriteSpec spec;
-    spec.width = header.width;
-    spec.height = header.height;
-    spec.data_x = header.data_x;
-    spec.data_y = header.data_y;
-    spec.data_width = header.data_width;
-    spec.data_height = header.data_height;
-    spec.pixel_aspect_ratio = header.pixel_aspect_ratio;
-    spec.tiled = node_.tiled;
-    spec.tile_size = header.bucket_size >= kMinTile && header.bucket_size <= kMaxTile
-                         ? header.bucket_size
-                         : kDefaultTile;
+    ExrWriteSpec spec = exr_spec(header, node_.tiled, space_.primaries);
     spec.compression = static_cast<ExrCompression>(node_.compression);
-    spec.primaries = space_.primaries;
-    spec.attributes = attributes_;
-    spec.attributes.insert(header.metadata.begin(), header.metadata.end());
+    // What the scene says wins over what we say.
+    for (const auto& [name, value] : attributes_)
+        spec.attributes[name] = value;
     for (const ImageLayer& layer : header.layers) {
         const bool half = (node_.half_precision || layer.half) && !layer.exact;
         const ExrPixelType type = is_uint(layer) ? ExrPixelType::UInt
@@ -240,7 +215,7 @@ ExrWriteSpec ExrDriver::make_spec(const ImageHeader& header) const {
         for (std::string& name :
              channel_names(layer, header.layers.size() == 1, node_.preserve_layer_name))
             spec.parts.back().channels.push_back({std::move(name), type});
-        describe_layer(layer, spec.attributes);
+        describe_exr_layer(layer, spec.attributes);
     }
     return spec;
 }
@@ -294,7 +269,8 @@ bool ExrDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
         }
         if (old) write_around(header, spec, *old);
     } catch (const InputError& e) {
-        return report(e, diagnostics);
+        diagnostics.add(e, where_);
+        return false;
     }
     return true;
 }
@@ -391,7 +367,10 @@ void ExrDriver::write(const Bucket& bucket) {
 }
 
 bool ExrDriver::close(Diagnostics& diagnostics) {
-    if (failure_) return report(*failure_, diagnostics);
+    if (failure_) {
+        diagnostics.add(*failure_, where_);
+        return false;
+    }
     if (!writer_ && !canvas_) return false;
     try {
         if (canvas_)
@@ -400,18 +379,11 @@ bool ExrDriver::close(Diagnostics& diagnostics) {
             writer_->close();
     } catch (const InputError& e) {
         writer_.reset();
-        return report(e, diagnostics);
+        diagnostics.add(e, where_);
+        return false;
     }
     writer_.reset();
     return true;
-}
-
-bool ExrDriver::report(const InputError& error, Diagnostics& diagnostics) const {
-    for (Error e : error.errors()) {
-        if (!e.where.known()) e.where = where_;
-        diagnostics.add(std::move(e));
-    }
-    return false;
 }
 
 std::unique_ptr<Driver> DriverExr::make_driver(NodeContext& context) const {
