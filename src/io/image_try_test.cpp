@@ -2,7 +2,6 @@
 #include "io/image_try.h"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <array>
 
@@ -22,13 +21,6 @@ const std::string kCrasher =
 
 class ImageTryTest : public FolderTest {
   protected:
-    /// A program that takes the reader's place: a shell script.
-    [[nodiscard]] std::string script(const std::string& body) const {
-        const std::string path = in_folder("reader");
-        write_bytes(path, "#!/bin/sh\n" + body + "\n");
-        ::chmod(path.c_str(), 0700);
-        return path;
-    }
     [[nodiscard]] std::string good_picture() const {
         const std::string path = in_folder("good.png");
         PictureSpec spec;

@@ -3,7 +3,6 @@
 #include "io/volume_reader.h"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -38,13 +37,6 @@ Error error_of(const std::function<void()>& body) {
 
 class VolumeReaderTest : public FolderTest {
   protected:
-    /// A program that takes the reader's place: a shell script.
-    [[nodiscard]] std::string script(const std::string& body) const {
-        const std::string path = in_folder("reader");
-        write_bytes(path, "#!/bin/sh\n" + body + "\n");
-        ::chmod(path.c_str(), 0700);
-        return path;
-    }
     [[nodiscard]] static Error error_with(const std::string& reader,
                                           const VolumeLimits& limits = {}) {
         return error_of(

@@ -9,13 +9,6 @@
 namespace lightsieve::testing {
 namespace {
 
-std::string outputs(const std::vector<const char*>& strings) {
-    std::string out = " outputs " + std::to_string(strings.size()) + " 1 STRING";
-    for (const char* s : strings)
-        out += std::string(" \"") + s + '"';
-    return out + '\n';
-}
-
 /// A corner in bright light: direct and indirect light, both above the clamps that tests set.
 std::string corner(const std::string& options) {
     return frame_text(6, 6, 3, persp_camera({0, 1.5F, 3}, {0, 0.5F, 0}, 60),

@@ -11,13 +11,6 @@
 namespace lightsieve::testing {
 namespace {
 
-std::string outputs(const std::vector<const char*>& strings) {
-    std::string out = " outputs " + std::to_string(strings.size()) + " 1 STRING";
-    for (const char* s : strings)
-        out += std::string(" \"") + s + '"';
-    return out + '\n';
-}
-
 const std::string kRed = node("flat", "red", " color 1 0 0"),
                   kBlue = node("flat", "blue", " color 0 0 1");
 

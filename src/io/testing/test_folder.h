@@ -38,6 +38,13 @@ class FolderTest : public testing::Test {
     static void write_bytes(const std::string& path, const std::string& bytes) {
         std::ofstream(path, std::ios::binary) << bytes;
     }
+    /// A program that takes another one's place: a shell script.
+    [[nodiscard]] std::string script(const std::string& body) const {
+        const std::string path = in_folder("reader");
+        write_bytes(path, "#!/bin/sh\n" + body + "\n");
+        std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+        return path;
+    }
 
   private:
     std::filesystem::path folder_;

@@ -1,10 +1,7 @@
 // Shaders that come with older scenes and with Maya: skin, maya_layered_shader, toon.
 #include <gtest/gtest.h>
 
-#include <array>
-
-#include "bsdf/closure.h"
-#include "nodes/common/node_test_support.h"
+#include "nodes/shader/shaded_test_support.h"
 
 namespace lightsieve {
 
@@ -13,26 +10,6 @@ NodeType node_skin();
 NodeType node_toon();
 
 namespace {
-
-/// What a shader makes of a hit that is seen at an angle.
-struct Shaded {
-    explicit Shaded(const TestNode& node, float cosine = 1) {
-        at.wo = {safe_sqrt(1 - cosine * cosine), 0, cosine};
-        set.begin(at.wo, Frame::from_z_x(at.normal, at.tangent));
-        set.set_records(records);
-        node.type().eval_closure(node.block(), at, set);
-    }
-    [[nodiscard]] Color albedo(int lobe) const {
-        Color sum;
-        for (std::size_t i = 0; i < set.closures().size(); ++i)
-            if (set.closures()[i].record == &records[static_cast<std::size_t>(lobe)])
-                sum += set.albedo(i);
-        return sum;
-    }
-    std::array<LobeRecord, 8> records;
-    ShadePoint at;
-    ClosureSet set;
-};
 
 // Skin -------------------------------------------------------------------------------------------------------------------
 

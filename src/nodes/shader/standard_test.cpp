@@ -1,10 +1,7 @@
 // The legacy surface: lobes beside each other.
 #include <gtest/gtest.h>
 
-#include <array>
-
-#include "bsdf/closure.h"
-#include "nodes/common/node_test_support.h"
+#include "nodes/shader/shaded_test_support.h"
 
 namespace lightsieve {
 
@@ -13,26 +10,6 @@ NodeType node_standard();
 namespace {
 
 enum Lobe { kDiffuse, kBacklight, kSpecular, kReflection, kRefraction, kSubsurface, kEmission };
-
-struct Shaded {
-    explicit Shaded(const TestNode& node, float cosine = 1) {
-        ShadePoint at;
-        at.wo = {safe_sqrt(1 - cosine * cosine), 0, cosine};
-        set.begin(at.wo, Frame::from_z_x(at.normal, at.tangent));
-        set.set_records(records);
-        node.type().eval_closure(node.block(), at, set);
-    }
-    /// Weighted albedo of a lobe.
-    [[nodiscard]] Color albedo(int lobe) const {
-        Color sum;
-        for (std::size_t i = 0; i < set.closures().size(); ++i)
-            if (set.closures()[i].record == &records[static_cast<std::size_t>(lobe)])
-                sum += set.albedo(i);
-        return sum;
-    }
-    std::array<LobeRecord, 7> records;
-    ClosureSet set;
-};
 
 TEST(Standard, DefaultIsSevenTenthsOfLambert) {
     const Shaded s{TestNode(node_standard())};

@@ -72,6 +72,13 @@ std::string frame_text(int width, int height, int aa_samples, std::string_view c
     return out;
 }
 
+std::string outputs(const std::vector<const char*>& strings) {
+    std::string out = " outputs " + std::to_string(strings.size()) + " 1 STRING";
+    for (const char* s : strings)
+        out += std::string(" \"") + s + '"';
+    return out + '\n';
+}
+
 std::string ortho_camera(Vec3f eye, Vec3f target, float width, Vec3f up) {
     const std::string half = text_of(width / 2);
     return node("ortho_camera", "cam",

@@ -28,6 +28,8 @@ namespace lightsieve::testing {
 /// options  more lines for the options node, wins over what stands there
 [[nodiscard]] std::string frame_text(int width, int height, int aa_samples,
                                      std::string_view camera, std::string_view options = "");
+/// The parameter `outputs` of the options node.
+[[nodiscard]] std::string outputs(const std::vector<const char*>& strings);
 /// A camera with parallel rays, `width` scene units wide.
 [[nodiscard]] std::string ortho_camera(Vec3f eye, Vec3f target, float width, Vec3f up = {0, 1, 0});
 [[nodiscard]] std::string persp_camera(Vec3f eye, Vec3f target, float fov_deg,
