@@ -369,8 +369,10 @@ class Planner {
         planned.info.is_color =
             data->source == LayerSource::ClampLoss || data->source == LayerSource::Unclamped;
         planned.source = data->source;
+        plan_.wants_clamps |= planned.info.is_color;
         plan_.wants_beauty |= planned.info.is_color;
-        plan_.wants_cost |= data->source == LayerSource::CpuTime;
+        plan_.wants_cost |=
+            data->source == LayerSource::CpuTime || data->source == LayerSource::RayCount;
         plan_.wants_pref |= data->source == LayerSource::Pref;
         plan_.layers.push_back(std::move(planned));
     }

@@ -112,7 +112,8 @@ struct AovPlan {
     bool wants_beauty = false;
     std::optional<std::size_t> adaptive_layer;  ///< whose noise asks for samples; else the beauty
     bool wants_mattes = false;                  ///< some layer shows one
-    bool wants_cost = false;                    ///< some layer shows time
+    bool wants_clamps = false;                  ///< some layer shows what clamps took away
+    bool wants_cost = false;                    ///< some layer shows rays or time
     bool wants_pref = false;                    ///< some layer shows Pref
     bool wants_deep = false;                    ///< some driver writes deep pixels
     lpe::BuiltinTable table = lpe::BuiltinTable::Reference;  ///< which built-ins the scene uses

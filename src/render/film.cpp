@@ -45,10 +45,10 @@ void Film::begin(const Pass& pass, int width, int height) {
         sums.view = pass.views[i];
         sums.reduction = plan_.views[sums.view].filter->reduction();
         sums.beauty.assign(n, {});
-        sums.lost.assign(n, {});
+        sums.lost.assign(plan_.wants_clamps ? n : 0, {});
         sums.alpha.assign(n, 0);
-        sums.rays.assign(n, 0);
-        sums.microseconds.assign(n, 0);
+        sums.rays.assign(plan_.wants_cost ? n : 0, 0);
+        sums.microseconds.assign(plan_.wants_cost ? n : 0, 0);
         sums.weight.assign(n, 0);
         sums.half_weight.assign(n, 0);
         sums.count.assign(n, 0);
@@ -175,8 +175,10 @@ void Film::add(int x, int y, const SampleBuffer& sample, float scale, Vec2f offs
         ViewSums& sums = views_[i];
         const double weight = double{weights[i]};
         ++sums.count[pixel];
-        sums.rays[pixel] += double{sample.rays};
-        sums.microseconds[pixel] += double{sample.microseconds};
+        if (plan_.wants_cost) {
+            sums.rays[pixel] += double{sample.rays};
+            sums.microseconds[pixel] += double{sample.microseconds};
+        }
         if (sums.keeps_one()) {
             add_if_nearest(sums, pixel, sample, double{scale}, offset);
             continue;
@@ -207,8 +209,10 @@ void Film::add_light(ViewSums& sums, std::size_t pixel, const SampleBuffer& samp
                      const Share& share) {
     const double factor = share.clamp * share.weight;
     add_to(sums.beauty[pixel], sample.beauty, factor, share.in_half);
-    add_to(sums.lost[pixel], sample.lost, share.weight, share.in_half);
-    add_to(sums.lost[pixel], sample.beauty, (1 - share.clamp) * share.weight, share.in_half);
+    if (plan_.wants_clamps) {
+        add_to(sums.lost[pixel], sample.lost, share.weight, share.in_half);
+        add_to(sums.lost[pixel], sample.beauty, (1 - share.clamp) * share.weight, share.in_half);
+    }
     add_to_atoms(sums, pixel, sample.contributions, factor, share.in_half);
     add_to_atoms(sums, pixel, sample.probes, share.weight, share.in_half);
 }
@@ -319,7 +323,8 @@ void Film::add_if_nearest(ViewSums& sums, std::size_t pixel, const SampleBuffer&
     sums.nearest_rank[pixel] = rank;
     sums.nearest[pixel] = sample.first;
     sums.alpha[pixel] = double{sample.alpha};
-    sums.beauty[pixel] = sums.lost[pixel] = {};
+    sums.beauty[pixel] = {};
+    if (plan_.wants_clamps) sums.lost[pixel] = {};
     for (std::size_t i = 0; i < sums.n_slots; ++i)
         sums.slots[i][pixel] = {};
     add_light(sums, pixel, sample, {clamp, 1, false});

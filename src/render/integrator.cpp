@@ -53,13 +53,14 @@ template <class Tracker>
 void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
                                 const Mat4f& camera_from_world, const Sampler& sampler,
                                 SampleBuffer& out) {
-    const std::uint64_t rays = counts.rays;
+    if (!scene_.plan.wants_cost)
+        return trace_path(camera_ray, time, camera_from_world, sampler, out);
     using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = scene_.plan.wants_cost ? Clock::now() : Clock::time_point{};
+    const std::uint64_t rays = counts.rays;
+    const Clock::time_point start = Clock::now();
     trace_path(camera_ray, time, camera_from_world, sampler, out);
     out.rays = static_cast<float>(counts.rays - rays);
-    if (scene_.plan.wants_cost)
-        out.microseconds = std::chrono::duration<float, std::micro>(Clock::now() - start).count();
+    out.microseconds = std::chrono::duration<float, std::micro>(Clock::now() - start).count();
 }
 
 template <class Tracker>
