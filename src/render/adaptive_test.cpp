@@ -133,6 +133,27 @@ TEST(AdaptiveSampling, MayGoByTheNoiseOfALayer) {
     EXPECT_GT(by_indirect.result().samples, 2 * least.result().samples);
 }
 
+TEST(AdaptiveSampling, OnlyMeansCanTell) {
+    const std::string filters =
+        node("variance_filter", "spread", "") + node("closest_filter", "one", "");
+    const auto with = [&](const std::vector<const char*>& strings, const std::string& more = "") {
+        return render(
+            half_noisy(kAdaptive + " AA_adaptive_threshold 0.02\n" + outputs(strings) + more) +
+            filters);
+    };
+    const std::uint64_t least = 48U * 48U * 9U;
+    // The layer that adaptive_aov names is the one with a mean, wherever it stands.
+    const std::uint64_t by_mean =
+        with({"RGBA RGBA f d", "emission RGB f d", "emission RGB spread d e"},
+             " adaptive_aov \"emission\"\n")
+            .result()
+            .samples;
+    EXPECT_EQ(by_mean, least);
+    EXPECT_GT(with({"RGBA RGBA f d", "emission RGB spread d"}).result().samples, least);
+    // Nothing to go by: nobody gets more.
+    EXPECT_EQ(with({"Z FLOAT one d"}).result().samples, least);
+}
+
 TEST(AdaptiveSampling, ALayerThatIsNoneIsReported) {
     const TestScene scene(half_noisy(kAdaptive + " adaptive_aov \"indrect\"\n", 8),
                           in_memory({"indirect"}), {"adaptive_aov"});

@@ -85,10 +85,10 @@ ScenePtr Compiler::run() {
                  has_caustics()},
                 scene_->plan, diagnostics_);
     const std::size_t forgiven = abort_on_error_ ? 0 : diagnostics_.n_errors() - before;
-    find_adaptive_layer();
-    find_culling();
     make_cameras();
     make_views();
+    find_adaptive_layer();
+    find_culling();
     part_passes();
     make_drivers();
     check_files();
@@ -100,8 +100,7 @@ ScenePtr Compiler::run() {
         make_accels();
         finish_volumes();
     } catch (const InputError& e) {
-        for (const Error& error : e.errors())
-            diagnostics_.add(error);
+        diagnostics_.add(e);
         return nullptr;
     }
     summarize_scene();

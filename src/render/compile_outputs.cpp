@@ -121,14 +121,18 @@ void Compiler::find_adaptive_layer() {
     AovPlan& plan = scene_->plan;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < plan.layers.size(); ++i) {
-        if (!is_light(plan.layers[i].source)) continue;
-        if (plan.layers[i].info.aov == wanted.view()) plan.adaptive_layer = i;
-        names.push_back(plan.layers[i].info.aov);
+        const PlannedLayer& layer = plan.layers[i];
+        const PixelFilter* filter = plan.views[layer.view].filter.get();
+        // Noise is known of means of light.
+        if (!is_light(layer.source) || filter == nullptr || filter->reduction() != Reduction::Mean)
+            continue;
+        if (!plan.adaptive_layer && layer.info.aov == wanted.view()) plan.adaptive_layer = i;
+        names.push_back(layer.info.aov);
     }
     if (plan.adaptive_layer) return;
     const std::string nearest = did_you_mean(wanted.view(), names);
     diagnostics_.warning(Code::InvalidValue,
-                         "adaptive_aov \"" + wanted.str() + "\" is no output of light",
+                         "adaptive_aov \"" + wanted.str() + "\" is no filtered output of light",
                          option_place("adaptive_aov"),
                          nearest.empty() ? "the noise of the beauty decides" : nearest);
 }

@@ -87,6 +87,7 @@ class Renderer {
     void make_room();
     void render_bucket(Worker& worker, std::size_t index, const BucketRect& rect);
     void render_pass(Worker& worker, std::size_t bucket, std::size_t pass, const BucketRect& rect);
+    [[nodiscard]] int most_samples(const Pass& pass) const;
     /// The bucket's state of an earlier render, if there is one.
     void resume(Worker& worker, std::size_t bucket, std::size_t pass, const BucketRect& rect,
                 SampleSchedule& schedule);
@@ -211,9 +212,10 @@ RenderResult Renderer::run() {
     result_.width = s.region.x1 - s.region.x0 + 1;
     result_.height = s.region.y1 - s.region.y0 + 1;
     if (capture_) make_room();
-    samples_total_ = static_cast<std::uint64_t>(result_.width) *
-                     static_cast<std::uint64_t>(result_.height) *
-                     static_cast<std::uint64_t>(s.samples_max) * scene_.plan.passes.size();
+    for (const Pass& pass : scene_.plan.passes)
+        samples_total_ += static_cast<std::uint64_t>(result_.width) *
+                          static_cast<std::uint64_t>(result_.height) *
+                          static_cast<std::uint64_t>(most_samples(pass));
     const std::vector<BucketRect> buckets = buckets_of(s);
     noise_.assign(buckets.size(), std::vector<NoiseSum>(scene_.plan.layers.size()));
     start_ = Clock::now();
@@ -256,6 +258,13 @@ void Renderer::render_bucket(Worker& worker, std::size_t index, const BucketRect
     report_progress(worker);
 }
 
+/// Samples that pixels of a pass may take. Where no layer is a mean nobody can tell noise, and the least are enough.
+int Renderer::most_samples(const Pass& pass) const {
+    const RenderSettings& s = scene_.settings;
+    const PixelFilter& filter = *scene_.plan.views[pass.sampling_view].filter;
+    return filter.reduction() == Reduction::Mean ? s.samples_max : s.samples;
+}
+
 void Renderer::resume(Worker& worker, std::size_t bucket, std::size_t pass, const BucketRect& rect,
                       SampleSchedule& schedule) {
     const std::optional<std::vector<std::byte>> state =
@@ -264,14 +273,14 @@ void Renderer::resume(Worker& worker, std::size_t bucket, std::size_t pass, cons
     const SampleSchedule fresh = schedule;
     ByteReader in(*state);
     std::uint64_t n = 0, not_taken = 0;
+    const int most = most_samples(scene_.plan.passes[pass]);
     bool fits = schedule.load(in) && worker.film.load(in) && in.done();
     for (int y = 0; fits && y < rect.height; ++y)
         for (int x = 0; fits && x < rect.width; ++x) {
-            fits = worker.film.count(x, y) <= scene_.settings.samples_max;
+            fits = worker.film.count(x, y) <= most;
             n += static_cast<std::uint64_t>(worker.film.count(x, y));
             if (!schedule.goes_on(x, y))
-                not_taken += static_cast<std::uint64_t>(scene_.settings.samples_max -
-                                                        worker.film.count(x, y));
+                not_taken += static_cast<std::uint64_t>(most - worker.film.count(x, y));
         }
     if (!fits) {
         worker.film.begin(scene_.plan.passes[pass], rect.width, rect.height);
@@ -302,7 +311,8 @@ void Renderer::render_pass(Worker& worker, std::size_t bucket, std::size_t index
     const PlannedLayer* noisy =
         scene_.plan.adaptive_layer ? &scene_.plan.layers[*scene_.plan.adaptive_layer] : nullptr;
     if (noisy != nullptr && &scene_.plan.passes[noisy->pass] != &pass) noisy = nullptr;
-    SampleSchedule schedule(rect.width, rect.height, s.samples, s.samples_max,
+    const int most = most_samples(pass);
+    SampleSchedule schedule(rect.width, rect.height, s.samples, most,
                             double{s.adaptive_threshold});
     resume(worker, bucket, index, rect, schedule);
     worker.saved = Checkpoint::Clock::now();
@@ -314,7 +324,7 @@ void Renderer::render_pass(Worker& worker, std::size_t bucket, std::size_t index
         if (schedule.decides()) worker.film.estimate_noise(noisy, 1, worker.noise);
         schedule.next_round(worker.noise);
         samples_total_ -= static_cast<std::uint64_t>(schedule.n_stopped()) *
-                          static_cast<std::uint64_t>(s.samples_max - schedule.done());
+                          static_cast<std::uint64_t>(most - schedule.done());
         if (!schedule.finished() && checkpoint_.due(worker.saved))
             save(worker, bucket, index, schedule);
     }
