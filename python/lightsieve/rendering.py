@@ -48,7 +48,7 @@ class Settings(TypedDict, total=False):
     """Colour space that light is computed in, by name; empty: as the scene says, or ACEScg."""
     checkpoint: float | None
     """Minutes between two writes of what is done to FILE.checkpoint beside the first file; 0: only
-    when the render ends before time; None: never."""
+    when the render ends before time; None: never, unless `resume` or `keep_checkpoint` ask for it."""
     resume: bool
     """Go on from the checkpoint, if there is one."""
     keep_checkpoint: bool
@@ -116,10 +116,10 @@ def compile_scene(
     options.rendering_space = settings.get("rendering_space", "")
     options.isa = settings.get("isa", "")
     minutes = settings.get("checkpoint")
-    options.checkpoints = minutes is not None
-    options.checkpoint_minutes = minutes or 0.0
     options.resume = settings.get("resume", False)
     options.keep_checkpoint = settings.get("keep_checkpoint", False)
+    options.checkpoints = minutes is not None or options.resume or options.keep_checkpoint
+    options.checkpoint_minutes = minutes or 0.0
     if "region" in settings:
         options.set_region(*settings["region"])
     changes = [f"{key}={_as_written(value)}" for key, value in settings.get("set", {}).items()]

@@ -40,7 +40,7 @@ class Fingerprint {
   private:
     [[nodiscard]] static std::uint64_t word(std::span<const std::byte> bytes) {
         std::uint64_t out = 0;
-        std::memcpy(&out, bytes.data(), bytes.size());
+        if (!bytes.empty()) std::memcpy(&out, bytes.data(), bytes.size());
         return out;
     }
     /// Source: the 64-bit finaliser of Appleby's MurmurHash3.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kMagic = 0x31544b434556534cU;  // "LSVECKT1" on little-endian machines
 constexpr std::uint32_t kRecord = 0x44524352U;
-/// States that wait to be written are written when they are more than this, be it time or not [bytes].
+/// States that wait to be written go to the file when they are more than this, be it time or not [bytes].
 constexpr std::size_t kMostPending = std::size_t{64} << 20U;
 /// Longer than any header and any bucket's film [bytes]: what claims to be larger is damage.
 constexpr std::uint64_t kLargestRecord = std::uint64_t{1} << 36U;
@@ -100,7 +100,7 @@ Checkpoint::Checkpoint(CheckpointSettings settings, RenderIdentity identity, int
     : settings_(std::move(settings)),
       identity_(std::move(identity)),
       samples_(samples),
-      written_(Clock::now()) {
+      synced_(Clock::now()) {
     if (active() && settings_.resume) read(samples);
 }
 
@@ -214,12 +214,13 @@ void Checkpoint::save(std::uint32_t bucket, std::uint32_t pass, std::vector<std:
     }
     pending_bytes_ += state.size();
     pending_.push_back({key, std::move(state)});
-    if (pending_bytes_ > kMostPending || due(written_)) write_pending();
+    const bool is_time = due(synced_);
+    if (is_time || pending_bytes_ > kMostPending) write_pending(is_time);
 }
 
 void Checkpoint::flush() {
     const std::lock_guard lock(mutex_);
-    if (active() && !pending_.empty()) write_pending();
+    if (active()) write_pending(true);
 }
 
 void Checkpoint::finish() {
@@ -263,8 +264,8 @@ bool Checkpoint::append(const std::vector<std::byte>& bytes) {
     return false;
 }
 
-void Checkpoint::write_pending() {
-    written_ = Clock::now();
+void Checkpoint::write_pending(bool sync) {
+    if (sync) synced_ = Clock::now();
     const auto failed = [&] {
         problem_ = "the checkpoint \"" + settings_.path +
                    "\" could not be written: " + std::strerror(errno);
@@ -272,6 +273,7 @@ void Checkpoint::write_pending() {
         pending_.clear();
         pending_bytes_ = 0;
     };
+    if (pending_.empty() && !continues_) return;
     if (!open_for_writing()) return failed();
     for (const Record& record : pending_) {
         RecordHead head{kRecord, record.key.first, record.key.second, 0, record.state.size(), 0};
@@ -284,7 +286,7 @@ void Checkpoint::write_pending() {
         if (!append(bytes)) return failed();
         places_[record.key] = {start, record.state.size()};
     }
-    if (::fsync(file_) != 0) return failed();
+    if (sync && ::fsync(file_) != 0) return failed();
     pending_.clear();
     pending_bytes_ = 0;
     problem_.clear();

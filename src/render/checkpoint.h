@@ -41,8 +41,6 @@ class Checkpoint {
     Checkpoint& operator=(const Checkpoint&) = delete;
 
     [[nodiscard]] bool active() const { return !settings_.path.empty(); }
-    /// Whether anything was found to go on with.
-    [[nodiscard]] bool resumed() const { return !places_.empty(); }
     /// The last state of a bucket in a pass; nothing if there is none.
     [[nodiscard]] std::optional<std::vector<std::byte>> load(std::uint32_t bucket,
                                                              std::uint32_t pass);
@@ -70,7 +68,8 @@ class Checkpoint {
     };
     void read(int samples);
     void check_header(class ByteReader& header, int samples) const;
-    void write_pending();
+    /// sync  down to the disk: against more than the end of this program
+    void write_pending(bool sync);
     [[nodiscard]] bool append(const std::vector<std::byte>& bytes);
     [[nodiscard]] bool open_for_writing();
     [[nodiscard]] std::vector<std::byte> header_bytes() const;
@@ -85,7 +84,7 @@ class Checkpoint {
     std::map<Key, Place> places_;
     std::vector<Record> pending_;
     std::size_t pending_bytes_ = 0;
-    Clock::time_point written_;
+    Clock::time_point synced_;
     std::string problem_;
 };
 

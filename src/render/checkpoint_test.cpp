@@ -64,7 +64,6 @@ class CheckpointFile : public ::testing::Test {
 TEST_F(CheckpointFile, TheLastStateOfABucketCounts) {
     write();
     Checkpoint file(settings(true), kIdentity, 9);
-    EXPECT_TRUE(file.resumed());
     EXPECT_EQ(file.load(0, 0), bytes("new and longer"));
     EXPECT_EQ(file.load(1, 0), bytes("other"));
     EXPECT_FALSE(file.load(0, 1));

@@ -293,6 +293,10 @@ def command(
         raise typer.BadParameter("name one scene: SCENE.ass, or -i FILE")
     path = scene or input_
     assert path is not None
+    if no_checkpoint and (resume or keep_checkpoint):
+        raise typer.BadParameter(
+            "--no-checkpoint forbids what --resume and --keep-checkpoint need"
+        )
     settings: Settings = {
         "aovs": aovs or (),
         "lpes": _named(lpes),
