@@ -336,6 +336,7 @@ class Integrator {
     // Of the current vertex.
     std::array<Channel, kMaxChannels> channels_;
     std::size_t n_channels_ = 0;
+    std::array<Color, kMaxChannels> reach_;   ///< throughput that may use each channel
     std::array<Color, kMaxChannels> values_;  ///< see cleared_values
     /// By scatterer: the closures of the set, then its subsurface closures.
     std::array<std::uint8_t, kMaxChannels> channel_of_;

@@ -127,8 +127,7 @@ auto Integrator<Tracker>::sort_by_kind() -> std::array<KindSum, kGiKinds> {
         if (!(probability_[i] > 0)) continue;
         KindSum& sum = out[static_cast<std::size_t>(kind_of_[i])];
         sum.probability += probability_[i];
-        // What may use each channel is still where choose_probabilities has put it.
-        if (n > 1) sum.carries += values_[channel_of_[i]] * albedo_of(i);
+        if (n > 1) sum.carries += reach_[channel_of_[i]] * albedo_of(i);
         sum.channel = &channel;
         sum.goes_on = sum.goes_on || !leads_nowhere(channel);
     }

@@ -38,7 +38,8 @@ bool Integrator<Tracker>::is_enabled(std::size_t scatterer) const {
 template <class Tracker>
 void Integrator<Tracker>::choose_probabilities() {
     // Throughput that may use each channel.
-    const std::span<Color> reach = cleared_values();
+    const std::span<Color> reach(reach_.data(), n_channels_);
+    std::ranges::fill(reach, kBlack);
     for (std::size_t c = 0; c < n_channels_; ++c) {
         if (scene_.culling == Culling::Lobes && !tracker_.goes_on(channels_[c])) continue;
         for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
