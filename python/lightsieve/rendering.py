@@ -48,7 +48,8 @@ class Settings(TypedDict, total=False):
     """Colour space that light is computed in, by name; empty: as the scene says, or ACEScg."""
     checkpoint: float | None
     """Minutes between two writes of what is done to FILE.checkpoint beside the first file; 0: only
-    when the render ends before time; None: never, unless `resume` or `keep_checkpoint` ask for it."""
+    when the render ends before time; None: never, unless `resume` or `keep_checkpoint` ask for
+    it."""
     resume: bool
     """Go on from the checkpoint, if there is one."""
     keep_checkpoint: bool

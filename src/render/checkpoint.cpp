@@ -289,7 +289,6 @@ void Checkpoint::write_pending(bool sync) {
     if (sync && ::fsync(file_) != 0) return failed();
     pending_.clear();
     pending_bytes_ = 0;
-    problem_.clear();
 }
 
 }  // namespace lightsieve

@@ -54,7 +54,7 @@ class Checkpoint {
     void flush();
     /// The render is done: removes the file, or writes the rest if it is to be kept.
     void finish();
-    /// Why the last write failed; empty if it did not.
+    /// Why a write failed, so that something will have to be rendered again; empty if none did.
     [[nodiscard]] const std::string& problem() const { return problem_; }
 
   private:
