@@ -20,7 +20,16 @@ std::size_t number_in(const std::string& path, const std::string& key = "") {
     return in >> number ? number : kUnknown;
 }
 
+/// A line of the process's status [bytes].
+std::size_t status_of(const std::string& root, const char* key) {
+    const std::size_t kilobytes = number_in(root + "/proc/self/status", key);
+    return kilobytes == kUnknown ? 0 : kilobytes * 1024;
+}
+
 }  // namespace
+
+std::size_t resident_memory(const std::string& root) { return status_of(root, "VmRSS:"); }
+std::size_t peak_memory(const std::string& root) { return status_of(root, "VmHWM:"); }
 
 std::size_t available_memory(const std::string& root) {
     const std::size_t kilobytes = number_in(root + "/proc/meminfo", "MemAvailable:");

@@ -15,4 +15,8 @@ namespace lightsieve {
 /// root  for tests: a folder that stands for the system's /
 [[nodiscard]] std::size_t available_memory(const std::string& root = "");
 
+/// What the process holds now, and the most that it ever held [bytes]; 0 if it is not known.
+[[nodiscard]] std::size_t resident_memory(const std::string& root = "");
+[[nodiscard]] std::size_t peak_memory(const std::string& root = "");
+
 }  // namespace lightsieve

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <vector>
 
 namespace lightsieve {
 namespace {
@@ -29,6 +30,15 @@ TEST(Memory, WhatTheSystemSays) {
 }
 
 TEST(Memory, ThereIsSomeHere) { EXPECT_GT(available_memory(), 1U << 20U); }
+
+TEST(Memory, WhatTheProcessHolds) {
+    const std::size_t before = resident_memory();
+    EXPECT_GT(before, 1U << 20U);
+    std::vector<char> block(std::size_t{64} << 20U, 1);
+    EXPECT_GE(resident_memory(), before + (std::size_t{60} << 20U)) << block[7];
+    EXPECT_GE(peak_memory(), resident_memory());
+    EXPECT_EQ(resident_memory("/nowhere"), 0U);
+}
 
 }  // namespace
 }  // namespace lightsieve

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -89,6 +90,7 @@ struct Texture {
 
 struct TextureCache::State {
     std::shared_ptr<const ColorSpaces> spaces;
+    float memory_mb = 0;
     OIIO::TextureSystem* system = nullptr;
     std::uint64_t id = next_cache_id++;
     std::mutex mutex;  ///< guards what follows
@@ -96,6 +98,7 @@ struct TextureCache::State {
              std::unique_ptr<Texture>>
         textures;
     std::map<std::string, std::string> failures;  ///< path to the first message
+    double open_seconds = 0;
 
     OIIO::TextureSystem::Perthread* thread() const {
         if (thread_handle.cache_id != id) thread_handle = {id, system->get_perthread_info()};
@@ -142,7 +145,8 @@ TextureCache::TextureCache(std::size_t memory_mb, std::shared_ptr<const ColorSpa
     state_->spaces = spaces ? std::move(spaces) : std::make_shared<const ColorSpaces>();
     state_->system = OIIO::TextureSystem::create(false);
     OIIO::TextureSystem& system = *state_->system;
-    system.attribute("max_memory_MB", static_cast<float>(memory_mb));
+    state_->memory_mb = static_cast<float>(memory_mb);
+    system.attribute("max_memory_MB", state_->memory_mb);
     system.attribute("max_open_files", kMaxOpenFiles);
     system.attribute("automip", 1);
     // A file read as two colour spaces is two textures, though its fingerprint is one.
@@ -192,6 +196,16 @@ bool TextureCache::State::readable(const Texture& texture, std::string& problem)
 
 const Texture* TextureCache::open(const std::string& path, std::string_view color_space,
                                   Diagnostics& diagnostics, const SourceSpan& where) {
+    const auto start = std::chrono::steady_clock::now();
+    const Texture* texture = open_untimed(path, color_space, diagnostics, where);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    const std::lock_guard lock(state_->mutex);
+    state_->open_seconds += taken.count();
+    return texture;
+}
+
+const Texture* TextureCache::open_untimed(const std::string& path, std::string_view color_space,
+                                          Diagnostics& diagnostics, const SourceSpan& where) {
     std::error_code ec;
     if (!std::filesystem::exists(path, ec)) {
         report(diagnostics, Code::FileNotFound, "there is no texture \"" + path + "\"", where,
@@ -254,6 +268,35 @@ Rgba TextureCache::lookup(const Texture& texture, Vec2f uv, TextureFootprint foo
     if (n == 1) return {Color::grey(v[0]), 1};
     if (n == 2) return {Color::grey(v[0]), v[1]};
     return {{v[0], v[1], v[2]}, n == 4 ? v[3] : 1};
+}
+
+std::size_t TextureCache::memory() const {
+    std::int64_t cached = 0;
+    state_->system->imagecache()->getattribute("stat:cache_memory_used", OIIO::TypeDesc::INT64,
+                                               &cached);
+    return static_cast<std::size_t>(std::max<std::int64_t>(cached, 0)) + whole_images_memory();
+}
+
+std::size_t TextureCache::most_memory() const {
+    const std::lock_guard lock(state_->mutex);
+    double texels = 0, whole = 0;
+    for (const auto& [key, texture] : state_->textures) {
+        const OIIO::ImageSpec* spec = state_->system->imagespec(texture->handle);
+        if (spec == nullptr) continue;
+        // Tiles are kept as bytes, halfs or floats; the coarser levels are a third of the finest.
+        const double size = static_cast<double>(spec->image_pixels()) * spec->nchannels *
+                            (spec->format.size() <= 2 ? double(spec->format.size()) : 4.0);
+        texels += size * 4 / 3;
+        whole += size;
+    }
+    const double bound = double{state_->memory_mb} * 0x1p20;
+    return static_cast<std::size_t>(std::min(texels, bound) +
+                                    std::min(whole, static_cast<double>(kMostWholeImages)));
+}
+
+double TextureCache::open_seconds() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->open_seconds;
 }
 
 void TextureCache::report_failures(Diagnostics& diagnostics) const {

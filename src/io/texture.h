@@ -79,10 +79,21 @@ class TextureCache {
     [[nodiscard]] Rgba lookup(const Texture& texture, Vec2f uv, TextureFootprint footprint,
                               const TextureSampling& sampling) const noexcept;
 
+    /// Texels in memory now [bytes], with what untiled files keep beside the cache.
+    [[nodiscard]] std::size_t memory() const;
+    /// The same when all that is open would be looked at, within the bound [bytes].
+    [[nodiscard]] std::size_t most_memory() const;
+    /// What opening took [s].
+    [[nodiscard]] double open_seconds() const;
+
     /// Reports look-ups that failed while rendering (files damaged or gone); such look-ups gave black.
     void report_failures(Diagnostics& diagnostics) const;
 
   private:
+    [[nodiscard]] const Texture* open_untimed(const std::string& path,
+                                              std::string_view color_space,
+                                              Diagnostics& diagnostics, const SourceSpan& where);
+
     struct State;
     std::unique_ptr<State> state_;
 };

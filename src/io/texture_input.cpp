@@ -14,12 +14,12 @@ namespace {
 constexpr int kTileSize = 64;
 /// An untiled file up to this size is decoded once and kept while it is open [bytes].
 constexpr std::size_t kMaxWholeImage = std::size_t{512} << 20;
-/// All such files together.
-constexpr std::size_t kMaxAllWholeImages = std::size_t{1} << 30;
 
 std::atomic<std::size_t> whole_image_bytes{0};
 
 }  // namespace
+
+std::size_t whole_images_memory() { return whole_image_bytes; }
 
 bool is_float_format(const OIIO::ImageSpec& spec) { return spec.format.is_floating_point(); }
 
@@ -186,7 +186,7 @@ bool ConvertingInput::whole_image_fits() const {
     if (!whole_.empty()) return true;
     const auto bytes = static_cast<std::size_t>(m_spec.image_pixels()) *
                        static_cast<std::size_t>(m_spec.nchannels) * read_format_.size();
-    return bytes <= kMaxWholeImage && whole_image_bytes + bytes <= kMaxAllWholeImages;
+    return bytes <= kMaxWholeImage && whole_image_bytes + bytes <= kMostWholeImages;
 }
 
 bool ConvertingInput::fetch_from_whole(int x, int y, std::byte* out) {

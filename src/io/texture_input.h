@@ -41,6 +41,10 @@ struct TexelConversion {
 /// Half or float; integers are taken for sRGB when a scene says "auto".
 [[nodiscard]] bool is_float_format(const OIIO::ImageSpec& spec);
 
+/// Bound on what untiled files that are open keep in memory, all together, and what they keep now [bytes].
+inline constexpr std::size_t kMostWholeImages = std::size_t{1} << 30;
+[[nodiscard]] std::size_t whole_images_memory();
+
 class ConvertingInput final : public OIIO::ImageInput {
   public:
     /// For the cache: it opens a made-up name, and `settings(path, from)` say which file is meant.

@@ -373,6 +373,27 @@ TEST_F(TextureTest, FilesThatVanishWhileRenderingAreReportedAtTheEnd) {
     EXPECT_EQ(after.items()[0].code, Code::FileUnreadable);
 }
 
+TEST_F(TextureTest, MemoryStaysBelowWhatWasForetold) {
+    constexpr int kSide = 512;
+    constexpr std::size_t kBytes = std::size_t{kSide} * kSide * 3 * sizeof(float);
+    write("a.tif", kSide, 3, std::vector<float>(kBytes / sizeof(float), 0.5F), PictureType::Float);
+    EXPECT_EQ(cache_.most_memory(), 0U);
+    EXPECT_EQ(cache_.open_seconds(), 0);
+    const Texture* t = open("a.tif");
+    ASSERT_NE(t, nullptr) << diagnostics_.render();
+    EXPECT_GT(cache_.open_seconds(), 0);
+    // All levels, and the file decoded as a whole.
+    EXPECT_EQ(cache_.most_memory(), kBytes * 4 / 3 + kBytes);
+    for (int i = 0; i < kSide; i += 32)
+        for (int j = 0; j < kSide; j += 32)
+            (void)texel(*t, i, j, kSide, kSide);
+    EXPECT_GE(cache_.memory(), 2 * kBytes);
+    EXPECT_LE(cache_.memory(), cache_.most_memory() + kBytes / 4) << "and what tiles cost each";
+    TextureCache small(1);
+    ASSERT_NE(small.open(in_folder("a.tif"), "auto", diagnostics_, {}), nullptr);
+    EXPECT_EQ(small.most_memory(), (std::size_t{1} << 20U) + kBytes);
+}
+
 TEST_F(TextureTest, UnknownSpacesWarn) {
     write("a.png", 1, 3, {0.2F, 0.6F, 1});
     ASSERT_NE(open("a.png", "my space"), nullptr);

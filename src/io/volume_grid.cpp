@@ -1,6 +1,7 @@
 #include "io/volume_grid.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -171,18 +172,22 @@ struct VolumeGrids::State {
     std::vector<Grid> grids;
     std::vector<Info> infos;
     Box3f bounds;
+    double load_seconds = 0;
 };
 
 /// Makes VolumeGrids, whose constructor is private.
 struct VolumeLoader {
     static std::shared_ptr<const VolumeGrids> load(const std::string& path,
-                                                   std::vector<RawVolumeGrid>&& raw) {
+                                                   std::vector<RawVolumeGrid>&& raw,
+                                                   std::chrono::steady_clock::time_point start) {
         auto state = std::make_unique<VolumeGrids::State>();
         for (RawVolumeGrid& grid : raw) {
             state->grids.push_back(make_grid(path, std::move(grid)));
             state->infos.push_back(state->grids.back().info);
             state->bounds.grow(state->infos.back().bounds);
         }
+        state->load_seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return std::shared_ptr<const VolumeGrids>(new VolumeGrids(std::move(state)));
     }
 };
@@ -236,11 +241,14 @@ std::size_t VolumeGrids::memory() const {
     return n;
 }
 
+double VolumeGrids::load_seconds() const { return state_->load_seconds; }
+
 std::shared_ptr<const VolumeGrids> load_volume_with(const std::string& reader,
                                                     const std::string& path,
                                                     std::span<const std::string> names,
                                                     const VolumeLimits& limits) {
-    return VolumeLoader::load(path, run_volume_reader(reader, path, names, limits));
+    const auto start = std::chrono::steady_clock::now();
+    return VolumeLoader::load(path, run_volume_reader(reader, path, names, limits), start);
 }
 
 std::shared_ptr<const VolumeGrids> load_volume(const std::string& path,

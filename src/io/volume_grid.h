@@ -52,6 +52,8 @@ class VolumeGrids {
     [[nodiscard]] Color maximum(int grid, const Box3f& object_box) const noexcept;
     /// Memory of grids and bounds [bytes].
     [[nodiscard]] std::size_t memory() const;
+    /// What reading the file took [s].
+    [[nodiscard]] double load_seconds() const;
 
   private:
     struct State;

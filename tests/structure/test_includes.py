@@ -47,7 +47,8 @@ LIBRARIES = {
 # Headers of the system and of the compiler that any file may use.
 SYSTEM = re.compile(
     r"[a-z_]+|sys/\w+\.h|"
-    r"(unistd|fcntl|xmmintrin|immintrin|dlfcn|malloc|poll|pthread|signal|spawn)\.h"
+    r"(unistd|fcntl|xmmintrin|immintrin|dlfcn|malloc|poll|pthread|signal|spawn|netdb)\.h|"
+    r"(arpa/inet|netinet/in)\.h"
 )
 
 
