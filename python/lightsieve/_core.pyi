@@ -367,6 +367,27 @@ class RenderOptions:
     def keep_checkpoint(self, arg: bool, /) -> None: ...
 
     @property
+    def max_memory(self) -> int:
+        """A forecast above it is an error [bytes]; 0: no limit."""
+
+    @max_memory.setter
+    def max_memory(self, arg: int, /) -> None: ...
+
+    @property
+    def viewer(self) -> str:
+        """HOST:PORT of a tev that shows the picture as it grows; empty: none."""
+
+    @viewer.setter
+    def viewer(self, arg: str, /) -> None: ...
+
+    @property
+    def viewer_layers(self) -> list[str]:
+        """Names of the layers that it shows, `*` for all; empty: the first."""
+
+    @viewer_layers.setter
+    def viewer_layers(self, arg: Sequence[str], /) -> None: ...
+
+    @property
     def capture(self) -> bool:
         """Keep the layers in memory."""
 
@@ -493,6 +514,49 @@ class SceneSummary:
     def partitions(self) -> list[str]:
         """Sums that were proved for the layers of one file."""
 
+    @property
+    def forecast(self) -> dict[str, int]:
+        """Memory that a render may take at most, by what it holds [bytes]."""
+
+    @property
+    def file_bytes(self) -> list[int]:
+        """Of each file, before compression."""
+
+    @property
+    def checkpoint_bytes(self) -> int:
+        """
+        Of the file that a stopped render leaves, at most; 0: there will be none.
+        """
+
+    @property
+    def log(self) -> LogSettings:
+        """What the scene asks of the log."""
+
+class LogSettings:
+    """What a scene asks of the log."""
+
+    @property
+    def verbosity(self) -> int:
+        """
+        0: errors; 1: warnings, progress and a summary; 2 and more: everything.
+        """
+
+    @property
+    def max_warnings(self) -> int:
+        """Warnings that are printed."""
+
+    @property
+    def file(self) -> str:
+        """Gets what is printed; empty: none."""
+
+    @property
+    def stats_file(self) -> str:
+        """For statistics; empty: none."""
+
+    @property
+    def stats_append(self) -> bool:
+        """After what that file holds."""
+
 class RenderProgress:
     """How far a render is."""
 
@@ -507,6 +571,12 @@ class RenderProgress:
     @property
     def seconds(self) -> float:
         """Since the first ray."""
+
+    @property
+    def noise(self) -> float:
+        """
+        Of the buckets that are done: a pixel's standard error over how bright pixels are; below 0: not known yet.
+        """
 
 class Outcome:
     """What a render gave."""
@@ -542,6 +612,20 @@ class Outcome:
     @property
     def rays(self) -> int:
         """Closest-hit and shadow rays."""
+
+    @property
+    def rays_by_kind(self) -> dict[str, int]:
+        """The same, by what they were traced for."""
+
+    @property
+    def memory(self) -> dict[str, int]:
+        """
+        Memory by what it holds [bytes], at the end; `other` is the rest of `peak_memory`.
+        """
+
+    @property
+    def peak_memory(self) -> int:
+        """The most that the process ever held [bytes]; 0: not known."""
 
     @property
     def noise(self) -> list[tuple[str, float, float, float]]:
@@ -598,6 +682,10 @@ class CompiledScene:
     @property
     def n_lints(self) -> int:
         """Lints, also those not kept."""
+
+    @property
+    def times(self) -> dict[str, float]:
+        """Where the time went so far, by stage [s]; only if it is usable."""
 
     def summary(self) -> SceneSummary:
         """What the scene holds; only if it is usable."""

@@ -6,9 +6,11 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple, TypedDict, Unpack
 
+from lightsieve import statistics
 from lightsieve._core import CompiledScene, RenderOptions, RenderProgress, SceneSummary
 from lightsieve.errors import Diagnostic, LightsieveError
 from lightsieve.frame import Frame, Layer
+from lightsieve.statistics import StatisticsFile
 
 Path = str | os.PathLike[str]
 
@@ -54,6 +56,14 @@ class Settings(TypedDict, total=False):
     """Go on from the checkpoint, if there is one."""
     keep_checkpoint: bool
     """Keep it also when the render is done, to go on with more samples."""
+    max_memory: int
+    """The render is refused if its forecast exceeds this [bytes]; 0: no limit."""
+    tev: str
+    """`HOST:PORT` of the viewer tev, which shows the picture as it grows."""
+    tev_aovs: Iterable[str]
+    """Names of the layers that it shows, `*` for all; empty: the first one."""
+    stats: Path
+    """A file for the statistics of renders (JSON), written anew."""
     isa: str
     """`sse2`, `avx2` or `avx512`: pins the ray kernels, for equal bits on unlike machines."""
 
@@ -121,6 +131,9 @@ def compile_scene(
     options.keep_checkpoint = settings.get("keep_checkpoint", False)
     options.checkpoints = minutes is not None or options.resume or options.keep_checkpoint
     options.checkpoint_minutes = minutes or 0.0
+    options.max_memory = settings.get("max_memory", 0)
+    options.viewer = settings.get("tev", "")
+    options.viewer_layers = list(settings.get("tev_aovs", ()))
     if "region" in settings:
         options.set_region(*settings["region"])
     changes = [f"{key}={_as_written(value)}" for key, value in settings.get("set", {}).items()]
@@ -188,7 +201,10 @@ def render(
     )
     if not compiled.usable:
         raise LightsieveError([item for item in compiled.diagnostics if item.severity == "error"])
+    stats = StatisticsFile(settings["stats"], append=False) if "stats" in settings else None
     outcome = compiled.render(progress)
+    if stats is not None:
+        stats.write(statistics.of_render(compiled, outcome))
     if outcome.interrupted:
         raise KeyboardInterrupt
     layers = [

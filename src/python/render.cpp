@@ -7,6 +7,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -57,6 +58,17 @@ class CompiledScene {
     [[nodiscard]] std::size_t n_warnings() const { return diagnostics_.n_warnings(); }
     [[nodiscard]] std::size_t n_lints() const { return diagnostics_.n_lints(); }
     [[nodiscard]] SceneSummary summary() const { return summarize(scene()); }
+    /// Seconds by stage, before the first ray.
+    [[nodiscard]] nb::dict times() const {
+        const StageTimes times = summary().times;
+        nb::dict out;
+        out["read"] = read_seconds_;
+        out["compile"] = times.compile;
+        out["textures"] = times.textures;
+        out["volumes"] = times.volumes;
+        out["accel"] = times.accel;
+        return out;
+    }
 
     /// What the engine needs to prove things about this scene, as texts: the module of the engine
     /// shares no types with this one.
@@ -91,6 +103,8 @@ class CompiledScene {
   private:
     void compile(const std::string& path, bool strict,
                  const std::vector<std::string>& assignments) {
+        using Clock = std::chrono::steady_clock;
+        const Clock::time_point start = Clock::now();
         const Document document = read_ass_file(path, diagnostics_);
         if (document.nodes().empty() && diagnostics_.has_errors()) return;
         BuildOptions build;
@@ -99,6 +113,7 @@ class CompiledScene {
             std::make_unique<SceneGraph>(build_graph(document, registry(), build, diagnostics_));
         for (const std::string& assignment : assignments)
             graph_->assign(assignment, diagnostics_);
+        read_seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
         scene_ = compile_scene(*graph_, options_, diagnostics_);
     }
     [[nodiscard]] const Scene& scene() const {
@@ -108,9 +123,18 @@ class CompiledScene {
 
     RenderOptions options_;
     mutable Diagnostics diagnostics_;
+    double read_seconds_ = 0;
     std::unique_ptr<SceneGraph> graph_;
     ScenePtr scene_;
 };
+
+/// Names with numbers, in their order.
+nb::dict to_dict(const std::vector<std::pair<std::string_view, std::size_t>>& values) {
+    nb::dict out;
+    for (const auto& [name, value] : values)
+        out[nb::str(name.data(), name.size())] = nb::int_(value);
+    return out;
+}
 
 /// A layer's pixels as an array that owns them: float32, or uint32 for UINT layers.
 nb::object pixels(FrameLayer&& layer, int width, int height) {
@@ -200,6 +224,12 @@ void add_options(nb::module_& module) {
         .def_rw("resume", &RenderOptions::resume, "Go on from there.")
         .def_rw("keep_checkpoint", &RenderOptions::keep_checkpoint,
                 "Keep it also when the render is done.")
+        .def_rw("max_memory", &RenderOptions::max_memory,
+                "A forecast above it is an error [bytes]; 0: no limit.")
+        .def_rw("viewer", &RenderOptions::viewer,
+                "HOST:PORT of a tev that shows the picture as it grows; empty: none.")
+        .def_rw("viewer_layers", &RenderOptions::viewer_layers,
+                "Names of the layers that it shows, `*` for all; empty: the first.")
         .def_rw("capture", &RenderOptions::capture, "Keep the layers in memory.")
         .def_rw("write_files", &RenderOptions::write_files, "Hand the pixels to the drivers.")
         .def(
@@ -244,13 +274,37 @@ void add_results(nb::module_& module) {
         .def_ro("layers", &SceneSummary::layers, "All layers of all files.")
         .def_ro("layer_file", &SceneSummary::layer_file, "Index into `files` of each layer.")
         .def_ro("partitions", &SceneSummary::partitions,
-                "Sums that were proved for the layers of one file.");
+                "Sums that were proved for the layers of one file.")
+        .def_prop_ro(
+            "forecast", [](const SceneSummary& s) { return to_dict(s.forecast.use.by_name()); },
+            nb::sig("def forecast(self) -> dict[str, int]"),
+            "Memory that a render may take at most, by what it holds [bytes].")
+        .def_prop_ro(
+            "file_bytes", [](const SceneSummary& s) { return s.forecast.file_bytes; },
+            "Of each file, before compression.")
+        .def_prop_ro(
+            "checkpoint_bytes",
+            [](const SceneSummary& s) { return s.forecast.checkpoint_file_bytes; },
+            "Of the file that a stopped render leaves, at most; 0: there will be none.")
+        .def_prop_ro(
+            "log", [](const SceneSummary& s) { return s.log; }, "What the scene asks of the log.");
+
+    nb::class_<LogSettings>(module, "LogSettings", "What a scene asks of the log.")
+        .def_ro("verbosity", &LogSettings::verbosity,
+                "0: errors; 1: warnings, progress and a summary; 2 and more: everything.")
+        .def_ro("max_warnings", &LogSettings::max_warnings, "Warnings that are printed.")
+        .def_ro("file", &LogSettings::file, "Gets what is printed; empty: none.")
+        .def_ro("stats_file", &LogSettings::stats_file, "For statistics; empty: none.")
+        .def_ro("stats_append", &LogSettings::stats_append, "After what that file holds.");
 
     nb::class_<RenderProgress>(module, "RenderProgress", "How far a render is.")
         .def_ro("samples_done", &RenderProgress::samples_done, "Camera samples taken.")
         .def_ro("samples_total", &RenderProgress::samples_total,
                 "Camera samples in all; 0 before the first bucket.")
-        .def_ro("seconds", &RenderProgress::seconds, "Since the first ray.");
+        .def_ro("seconds", &RenderProgress::seconds, "Since the first ray.")
+        .def_ro("noise", &RenderProgress::noise,
+                "Of the buckets that are done: a pixel's standard error over how bright pixels "
+                "are; below 0: not known yet.");
 
     nb::class_<Outcome>(module, "Outcome", "What a render gave.")
         .def_prop_ro(
@@ -273,6 +327,24 @@ void add_results(nb::module_& module) {
             "File from which a later render can go on; empty if there is none.")
         .def_prop_ro(
             "rays", [](const Outcome& o) { return o.result.rays; }, "Closest-hit and shadow rays.")
+        .def_prop_ro(
+            "rays_by_kind",
+            [](const Outcome& o) {
+                nb::dict out;
+                for (std::size_t i = 0; i < kRayKindNames.size(); ++i)
+                    out[nb::str(kRayKindNames[i].data(), kRayKindNames[i].size())] =
+                        nb::int_(o.result.rays_by_kind[i]);
+                return out;
+            },
+            nb::sig("def rays_by_kind(self) -> dict[str, int]"),
+            "The same, by what they were traced for.")
+        .def_prop_ro(
+            "memory", [](const Outcome& o) { return to_dict(o.result.memory.by_name()); },
+            nb::sig("def memory(self) -> dict[str, int]"),
+            "Memory by what it holds [bytes], at the end; `other` is the rest of `peak_memory`.")
+        .def_prop_ro(
+            "peak_memory", [](const Outcome& o) { return o.result.peak_memory; },
+            "The most that the process ever held [bytes]; 0: not known.")
         .def_prop_ro(
             "noise",
             [](const Outcome& o) {
@@ -322,6 +394,9 @@ void add_render(nb::module_& module) {
         .def_prop_ro("n_errors", &CompiledScene::n_errors, "Errors, also those not kept.")
         .def_prop_ro("n_warnings", &CompiledScene::n_warnings, "Warnings, also those not kept.")
         .def_prop_ro("n_lints", &CompiledScene::n_lints, "Lints, also those not kept.")
+        .def_prop_ro("times", &CompiledScene::times,
+                     nb::sig("def times(self) -> dict[str, float]"),
+                     "Where the time went so far, by stage [s]; only if it is usable.")
         .def("summary", &CompiledScene::summary, "What the scene holds; only if it is usable.")
         .def_prop_ro("events", &CompiledScene::events,
                      "Every event that its paths can be made of, as text; only if it is usable.")

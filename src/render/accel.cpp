@@ -2,7 +2,9 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -436,6 +438,7 @@ constexpr std::uint32_t kAllBits = 0xffffffffU;
 }  // namespace
 
 struct Accel::State {
+    std::atomic<std::ptrdiff_t> bytes{0};  ///< that Embree holds; outlives `device`, which counts
     DevicePtr device;
     std::map<const ShapeGeometry*, ScenePtr>
         shared;  ///< geometries that are placed more than once
@@ -519,6 +522,13 @@ Accel::Accel(std::span<const AccelObject> objects, const std::string& isa, bool 
                  : "the ray library cannot be started with instruction set \"" + isa + "\"",
              {},
              "sse2, avx2 and avx512 are known; the processor must have it"});
+    rtcSetDeviceMemoryMonitorFunction(
+        s.device.get(),
+        [](void* counter, ssize_t bytes, bool) {
+            *static_cast<std::atomic<std::ptrdiff_t>*>(counter) += bytes;
+            return true;
+        },
+        &s.bytes);
     s.top = s.new_scene();
     std::map<const ShapeGeometry*, int> uses;
     for (const AccelObject& object : objects)
@@ -548,6 +558,10 @@ Accel::Accel(std::span<const AccelObject> objects, const std::string& isa, bool 
 }
 
 Accel::~Accel() = default;
+
+std::size_t Accel::memory() const {
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(state_->bytes, 0));
+}
 
 bool Accel::intersect(const Ray& ray, std::uint32_t mask, RayHit& hit) const noexcept {
     if (!can_be_traced(ray)) return false;

@@ -47,6 +47,8 @@ class Accel {
     /// Bounds of everything that has an end (planes have none), over the whole shutter; empty if there is nothing.
     [[nodiscard]] Box3f bounds() const;
     [[nodiscard]] bool empty() const;
+    /// What Embree holds [bytes].
+    [[nodiscard]] std::size_t memory() const;
 
   private:
     struct State;

@@ -12,6 +12,7 @@
 #include "core/bytes.h"
 #include "core/error.h"
 #include "core/fingerprint.h"
+#include "io/atomic_file.h"
 
 namespace lightsieve {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 constexpr std::uint64_t kMagic = 0x31544b434556534cU;  // "LSVECKT1" on little-endian machines
 constexpr std::uint32_t kRecord = 0x44524352U;
 /// States that wait to be written go to the file when they are more than this, be it time or not [bytes].
-constexpr std::size_t kMostPending = std::size_t{64} << 20U;
 /// Longer than any header and any bucket's film [bytes]: what claims to be larger is damage.
 constexpr std::uint64_t kLargestRecord = std::uint64_t{1} << 36U;
 
@@ -220,7 +220,11 @@ void Checkpoint::save(std::uint32_t bucket, std::uint32_t pass, std::vector<std:
 
 void Checkpoint::flush() {
     const std::lock_guard lock(mutex_);
-    if (active()) write_pending(true);
+    if (!active()) return;
+    write_pending(true);
+    // Somebody may have removed the file, with its folder perhaps: what is open has its data still.
+    if (!continues_ || ::access(settings_.path.c_str(), F_OK) == 0 || errno != ENOENT) return;
+    if (!copy_open_file(file_, settings_.path)) note_problem();
 }
 
 void Checkpoint::finish() {
@@ -231,6 +235,7 @@ void Checkpoint::finish() {
     if (!continues_) return;  // what lies there is not ours
     std::error_code ignored;
     std::filesystem::remove(settings_.path, ignored);
+    std::filesystem::remove(settings_.path + ".part", ignored);  // of a render that was killed
 }
 
 /// Opens the file, with its header. A file of another render is replaced only when there is something to put in its place.
@@ -264,11 +269,15 @@ bool Checkpoint::append(const std::vector<std::byte>& bytes) {
     return false;
 }
 
+void Checkpoint::note_problem() {
+    problem_ =
+        "the checkpoint \"" + settings_.path + "\" could not be written: " + std::strerror(errno);
+}
+
 void Checkpoint::write_pending(bool sync) {
     if (sync) synced_ = Clock::now();
     const auto failed = [&] {
-        problem_ = "the checkpoint \"" + settings_.path +
-                   "\" could not be written: " + std::strerror(errno);
+        note_problem();
         // Memory is for rendering: what could not be written is rendered again after a resume.
         pending_.clear();
         pending_bytes_ = 0;

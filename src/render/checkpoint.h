@@ -40,6 +40,9 @@ class Checkpoint {
     Checkpoint(const Checkpoint&) = delete;
     Checkpoint& operator=(const Checkpoint&) = delete;
 
+    /// As much of what is done waits in memory at most, beside the state of one bucket [bytes].
+    static constexpr std::size_t kMostPending = std::size_t{64} << 20;
+
     [[nodiscard]] bool active() const { return !settings_.path.empty(); }
     /// The last state of a bucket in a pass; nothing if there is none.
     [[nodiscard]] std::optional<std::vector<std::byte>> load(std::uint32_t bucket,
@@ -70,6 +73,8 @@ class Checkpoint {
     void check_header(class ByteReader& header, int samples) const;
     /// sync  down to the disk: against more than the end of this program
     void write_pending(bool sync);
+    /// A call of the system has just failed.
+    void note_problem();
     [[nodiscard]] bool append(const std::vector<std::byte>& bytes);
     [[nodiscard]] bool open_for_writing();
     [[nodiscard]] std::vector<std::byte> header_bytes() const;

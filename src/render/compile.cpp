@@ -1,11 +1,13 @@
 // The order of compilation, settings and cameras. See compiler.h.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 
 #include "render/adaptive.h"
 #include "render/compiler.h"
+#include "render/memory_use.h"
 #include "render/shade_services.h"
 #include "scene/assemble.h"
 #include "scene/switches.h"
@@ -17,9 +19,17 @@ namespace {
 constexpr int kMaxSide = 1 << 16;
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
 constexpr int kMaxSamples = 1 << 24;
+/// Bounds on texture_max_memory_MB: less is too little for the tiles of one look-up in all threads.
+constexpr float kLeastTextureMb = 16, kMostTextureMb = 1 << 24;
 
 std::uint8_t depth_limit(std::int32_t n) {
     return static_cast<std::uint8_t>(std::clamp(n, 0, 250));
+}
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
 }
 
 template <class T>
@@ -62,14 +72,19 @@ void SceneDelete::operator()(Scene* scene) const { delete scene; }
 SceneSummary summarize(const Scene& scene) { return scene.summary; }
 
 ScenePtr compile_scene(SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics) {
+    const Clock::time_point start = Clock::now();
     assemble_scene(graph, options, diagnostics);
-    return Compiler(graph, options, diagnostics).run();
+    const double assembling = seconds_between(start, Clock::now());
+    ScenePtr scene = Compiler(graph, options, diagnostics).run();
+    if (scene) scene->summary.times.compile += assembling;
+    return scene;
 }
 
 Compiler::Compiler(const SceneGraph& graph, const RenderOptions& options, Diagnostics& diagnostics)
     : graph_(graph), options_(options), diagnostics_(diagnostics), scene_(new Scene) {}
 
 ScenePtr Compiler::run() {
+    const Clock::time_point start = Clock::now();
     read_settings();
     read_shutter();
     make_lights();
@@ -96,6 +111,7 @@ ScenePtr Compiler::run() {
     fill_records();
     find_mask_types();
     finish_depth_rules();
+    const Clock::time_point accels = Clock::now();
     try {
         make_accels();
         finish_volumes();
@@ -103,9 +119,35 @@ ScenePtr Compiler::run() {
         diagnostics_.add(e);
         return nullptr;
     }
+    scene_->summary.times.accel = seconds_between(accels, Clock::now());
     summarize_scene();
     identify();
+    find_viewer_layers();
+    scene_->summary.forecast = forecast_memory(*scene_);
+    check_memory(scene_->summary.forecast, options_.max_memory, diagnostics_);
+    if (diagnostics_.n_errors() > before + forgiven) return nullptr;
+    note_times(seconds_between(start, Clock::now()));
     return std::move(scene_);
+}
+
+/// seconds  that everything took
+void Compiler::note_times(double seconds) {
+    StageTimes& times = scene_->summary.times;
+    times.textures = scene_->textures->open_seconds();
+    std::set<const VolumeGrids*> seen;
+    for (const SceneVolume& volume : scene_->volumes)
+        if (volume.grids() != nullptr && seen.insert(volume.grids()).second)
+            times.volumes += volume.grids()->load_seconds();
+    times.compile = std::max(0.0, seconds - times.textures - times.volumes - times.accel);
+}
+
+void Compiler::read_log_settings() {
+    LogSettings& log = scene_->summary.log;
+    log.verbosity = option<std::int32_t>("log_verbosity", 1);
+    log.max_warnings = option<std::int32_t>("log_max_warnings", 100);
+    log.file = option<Name>("log_file", {}).str();
+    log.stats_file = option<Name>("stats_file", {}).str();
+    log.stats_append = option<std::int32_t>("stats_mode", 0) == 1;
 }
 
 bool Compiler::has_caustics() const {
@@ -142,8 +184,11 @@ void Compiler::read_settings() {
     if (!options_.scene_path.empty())
         assets_.add_folder(std::filesystem::path(options_.scene_path).parent_path().string());
     make_color_spaces();
-    scene_->textures =
-        std::make_shared<TextureCache>(TextureCache::kDefaultMemoryMb, scene_->color_spaces);
+    scene_->textures = std::make_shared<TextureCache>(
+        static_cast<std::size_t>(
+            std::clamp(option("texture_max_memory_MB", 4096.0F), kLeastTextureMb, kMostTextureMb)),
+        scene_->color_spaces);
+    read_log_settings();
     ignore_missing_textures_ = option("ignore_missing_textures", false);
     abort_on_error_ = option("abort_on_error", true);
 

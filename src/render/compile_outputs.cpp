@@ -318,6 +318,30 @@ void Compiler::make_driver(PlannedDriver& planned, std::size_t index) {
     }
 }
 
+void Compiler::find_viewer_layers() {
+    ViewerSettings& viewer = scene_->settings.viewer;
+    if (options_.viewer.empty()) return;
+    viewer.address = options_.viewer;
+    const std::vector<PlannedLayer>& layers = scene_->plan.layers;
+    // Ids are no picture: what can be looked at is numbers that are filtered.
+    const auto shown = [](const PlannedLayer& layer) {
+        return layer.source != LayerSource::Matte && layer.source != LayerSource::Id;
+    };
+    std::vector<std::string> names;
+    for (const PlannedLayer& layer : layers)
+        names.push_back(layer.info.name);
+    for (const std::string& wanted : options_.viewer_layers) {
+        const std::size_t before = viewer.layers.size();
+        for (std::size_t i = 0; i < layers.size(); ++i)
+            if (wanted == "*" ? shown(layers[i]) : names[i] == wanted) viewer.layers.push_back(i);
+        if (viewer.layers.size() == before)
+            diagnostics_.error(Code::UnknownLayer,
+                               "no output is called \"" + wanted + "\", so no viewer can show it",
+                               {}, did_you_mean(wanted, names));
+    }
+    if (options_.viewer_layers.empty() && !layers.empty()) viewer.layers.push_back(0);
+}
+
 void Compiler::check_files() {
     std::map<std::string, std::size_t> writer;
     for (std::size_t i = 0; i < scene_->plan.drivers.size(); ++i) {

@@ -68,6 +68,8 @@ class Compiler {
     void make_cameras();
     void finish_depth_rules();
     void summarize_scene();
+    void note_times(double seconds);
+    void read_log_settings();
     /// What a checkpoint must agree with, and where it lies (compile_identity.cpp).
     void identify();
     [[nodiscard]] bool has_caustics() const;
@@ -170,6 +172,8 @@ class Compiler {
     void make_driver(PlannedDriver& planned, std::size_t index);
     void check_files();
     void check_deep(PlannedDriver& planned);
+    /// The layers that a viewer is to show.
+    void find_viewer_layers();
 
     // compile_accel.cpp
     void make_accels();

@@ -24,6 +24,15 @@ void DeepSums::add(std::size_t pixel, float depth, Color opacity, std::span<cons
         p.values.push_back(static_cast<float>(v * weight));
 }
 
+std::size_t DeepSums::memory() const {
+    std::size_t sum = pixels_.capacity() * sizeof(Pixel);
+    for (const Pixel& pixel : pixels_)
+        sum += pixel.depths.capacity() * sizeof(float) +
+               pixel.opacities.capacity() * sizeof(Color) +
+               pixel.values.capacity() * sizeof(float);
+    return sum;
+}
+
 void DeepSums::save(ByteWriter& out) const {
     std::vector<std::uint32_t> counts;
     for (const Pixel& p : pixels_)

@@ -29,6 +29,8 @@ class DeepSums {
     /// norms  for each pixel: what its weights are multiplied by
     [[nodiscard]] DeepBucket resolve(std::span<const double> norms) const;
 
+    /// [bytes]
+    [[nodiscard]] std::size_t memory() const;
     void save(ByteWriter& out) const;
     /// What `save` wrote, after `begin`. False if it does not fit.
     [[nodiscard]] bool load(ByteReader& in);

@@ -401,6 +401,30 @@ void Film::resolve_values(const ViewSums& sums, const PlannedLayer& layer,
     resolve_data(sums, layer, out);
 }
 
+std::size_t Film::memory() const {
+    std::size_t sum = 0;
+    const auto add = [&](const auto& values) { sum += values.capacity() * sizeof(values[0]); };
+    for (const ViewSums& sums : views_) {
+        ViewSums::for_each_sum(sums, add);
+        ViewSums::for_each_kind(sums, [&](const auto& kind) { sum += kind.memory(); });
+        add(sums.slot_of);
+        for (const std::vector<LightSum>& slot : sums.slots)
+            add(slot);
+    }
+    return sum;
+}
+
+std::size_t Film::most_memory(const AovPlan& plan, const Pass& pass, int width, int height) {
+    constexpr int kSide = 8;
+    Film sample(plan);
+    sample.begin(pass, kSide, kSide);
+    for (ViewSums& sums : sample.views_)
+        for (std::uint32_t key = 0; key < sums.slot_of.size(); ++key)
+            (void)sample.slot(sums, key);
+    return sample.memory() / (kSide * kSide) * static_cast<std::size_t>(width) *
+           static_cast<std::size_t>(height);
+}
+
 void Film::save(ByteWriter& out) const {
     for (const ViewSums& sums : views_) {
         ViewSums::for_each_sum(sums, [&](const auto& values) { out.put(values); });

@@ -136,6 +136,12 @@ class Film {
     [[nodiscard]] int count(int x, int y) const {
         return static_cast<int>(views_.front().count[static_cast<std::size_t>(y * width_ + x)]);
     }
+    /// Memory of all sums, with what earlier buckets left for reuse [bytes].
+    [[nodiscard]] std::size_t memory() const;
+    /// The same for a bucket into all of whose atoms light falls. Mattes and deep samples, which grow with what is seen, count as
+    /// they begin.
+    [[nodiscard]] static std::size_t most_memory(const AovPlan& plan, const Pass& pass, int width,
+                                                 int height);
     /// All sums, to go on later.
     void save(ByteWriter& out) const;
     /// Sums that `save` wrote, after `begin` of the same pass and size. False if they do not fit: then begin anew.

@@ -56,10 +56,10 @@ void Integrator<Tracker>::trace(const CameraRay& camera_ray, float time,
     if (!scene_.plan.wants_cost)
         return trace_path(camera_ray, time, camera_from_world, sampler, out);
     using Clock = std::chrono::steady_clock;
-    const std::uint64_t rays = counts.rays;
+    const std::uint64_t rays = sum_of(counts.rays);
     const Clock::time_point start = Clock::now();
     trace_path(camera_ray, time, camera_from_world, sampler, out);
-    out.rays = static_cast<float>(counts.rays - rays);
+    out.rays = static_cast<float>(sum_of(counts.rays) - rays);
     out.microseconds = std::chrono::duration<float, std::micro>(Clock::now() - start).count();
 }
 
@@ -119,7 +119,7 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
         lights_only_ = std::all_of(path_.groups.all().begin(), path_.groups.all().end(),
                                    [](const PathGroup& g) { return g.key.lights_only; });
         RayHit hit;
-        ++counts.rays;
+        ++counts.rays_of(ray_kind_of(path_.groups[0].key.ray_type));
         const bool met = scene_.accel->intersect(ray, ray_mask(), hit);
         begin_media(ray, met ? hit.t : ray.t_max);
         if (by_shadow_rays() && path_.segment == path_.last.next_segment) {

@@ -28,13 +28,17 @@ namespace lightsieve {
 
 /// Counts of one thread; added up at the end.
 struct TraceCounts {
-    std::uint64_t rays = 0;     ///< closest-hit and shadow rays
+    RaysByKind rays{};          ///< closest-hit and shadow rays
     std::uint64_t dropped = 0;  ///< contributions that were not finite
     std::uint32_t dropped_event =
         kNoEvent;  ///< the last one's terminal, into Scene::events; kNoEvent: dropped while scattering
     int dropped_depth = 0;  ///< scattering events before it
     static constexpr std::uint32_t kNoEvent = UINT32_MAX;
     std::uint64_t dropped_closures = 0;  ///< closures that did not fit into a ClosureSet
+
+    [[nodiscard]] std::uint64_t& rays_of(RayKind kind) {
+        return rays[static_cast<std::size_t>(kind)];
+    }
 };
 
 template <class Tracker>

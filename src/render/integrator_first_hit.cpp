@@ -152,7 +152,7 @@ bool Integrator<Tracker>::find_behind(const Surface& front, Surface& out) {
         if (own.is_body && (lobe || hidden)) inside.cross(out.shader, own, out.at.entering);
         const Ray ray{start_of_ray(out, along), along, 0, kInfinity, out.at.time};
         RayHit hit;
-        ++counts.rays;
+        ++counts.rays_of(RayKind::Transmission);
         if (!scene_.accel->intersect(ray, ray_bit(RayType::SpecularTransmit), hit)) return false;
         out = make_surface(scene_.objects[hit.object], ray, hit, path_.footprint);
         meet(out, RayType::SpecularTransmit);

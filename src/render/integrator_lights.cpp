@@ -131,7 +131,7 @@ auto Integrator<Tracker>::visibility(const Surface& surface, std::uint32_t index
 template <class Tracker>
 auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore, std::uint32_t light)
     -> Visibility {
-    ++counts.rays;
+    ++counts.rays_of(RayKind::Shadow);
     const std::uint32_t both = kMaskShadowOpaque | kMaskShadowTransparent;
     const Visibility dark{kBlack, kBlack};
     Visibility out{kWhite, kWhite};
@@ -144,7 +144,7 @@ auto Integrator<Tracker>::visibility_along(Ray ray, const SceneObject* ignore, s
                          guard < static_cast<int>(kMaxSegments);
          ++guard) {
         RayHit hit;
-        ++counts.rays;
+        ++counts.rays_of(RayKind::Shadow);
         if (!scene_.accel->intersect(ray, ignore == nullptr ? kMaskShadowTransparent : both, hit))
             return out;
         const SceneObject& object = scene_.objects[hit.object];

@@ -230,7 +230,7 @@ bool Integrator<Tracker>::scatter_below(const Surface& surface, std::size_t draw
     if (!advance(factors, drawn)) return false;
     const std::optional<WalkExit> exit =
         walk_below(scene_, surface, closure.medium, points_.direction, path_.sampler,
-                   hash_combine(path_.segment, kWalkStream), counts.rays);
+                   hash_combine(path_.segment, kWalkStream), counts.rays_of(RayKind::Subsurface));
     if (!exit) return false;
     path_.groups.scale(exit->throughput);
     tracker_.scale(exit->throughput);

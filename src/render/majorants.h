@@ -26,6 +26,7 @@ class MajorantGrid {
     [[nodiscard]] std::array<int, 3> size() const { return size_; }
     [[nodiscard]] float& at(int x, int y, int z) { return cells_[index(x, y, z)]; }
     [[nodiscard]] float at(int x, int y, int z) const { return cells_[index(x, y, z)]; }
+    [[nodiscard]] std::size_t memory() const { return cells_.capacity() * sizeof(float); }
     /// Object space.
     [[nodiscard]] Box3f cell(int x, int y, int z) const;
 

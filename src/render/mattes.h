@@ -52,6 +52,13 @@ class MatteSums {
     /// norm  what weights are multiplied by
     [[nodiscard]] std::array<Covered, 2> ranks(std::size_t pixel, std::size_t first,
                                                double norm) const;
+    /// [bytes]
+    [[nodiscard]] std::size_t memory() const {
+        std::size_t sum = pixels_.capacity() * sizeof(pixels_[0]);
+        for (const auto& pixel : pixels_)
+            sum += pixel.capacity() * sizeof(Entry);
+        return sum;
+    }
     void save(ByteWriter& out) const;
     /// What `save` wrote, after `begin`. False if it does not fit.
     [[nodiscard]] bool load(ByteReader& in);

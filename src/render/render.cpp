@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <mutex>
 #include <utility>
 
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "core/version.h"
+#include "io/file_claim.h"
 #include "lpe/path.h"
 #include "render/adaptive.h"
 #include "render/camera_sample.h"
 #include "render/integrator.h"
+#include "render/live_view.h"
 #include "render/mattes.h"
+#include "render/memory_use.h"
 
 namespace lightsieve {
 namespace {
@@ -66,6 +70,14 @@ struct Worker {
     std::vector<DroppedSample> dropped;      ///< the first few
     std::uint64_t n_unreported = 0;          ///< samples since the last report of progress
     Checkpoint::Clock::time_point saved;     ///< when the bucket's state was last saved, or begun
+
+    /// Of what grows with the outputs [bytes].
+    [[nodiscard]] std::size_t memory() const {
+        std::size_t sum = film.memory() + noise.capacity() * sizeof(PixelNoise);
+        for (const std::vector<float>& layer : layers)
+            sum += layer.capacity() * sizeof(float);
+        return sum;
+    }
 };
 
 class Renderer {
@@ -83,7 +95,10 @@ class Renderer {
 
   private:
     [[nodiscard]] ImageHeader header_of(const PlannedDriver& driver, std::size_t index) const;
+    void claim_files();
     void open_drivers();
+    void open_viewer();
+    void restore_folders();
     void make_room();
     void render_bucket(Worker& worker, std::size_t index, const BucketRect& rect);
     void render_pass(Worker& worker, std::size_t bucket, std::size_t pass, const BucketRect& rect);
@@ -98,6 +113,9 @@ class Renderer {
     void measure_noise(Worker& worker, std::size_t bucket, std::size_t layer);
     void report_noise();
     void report_progress(Worker& worker);
+    [[nodiscard]] bool has_noise(const PlannedLayer& layer) const;
+    [[nodiscard]] double noise_so_far();
+    void find_watched_layer();
     static void note_dropped(Worker& worker, int x, int y, int index);
     void deliver(Worker& worker, const BucketRect& rect);
     [[nodiscard]] bool is_deep_of_pass(const PlannedDriver& driver, std::size_t pass) const {
@@ -106,6 +124,7 @@ class Renderer {
     void close_drivers();
     void close_checkpoint();
     void report();
+    void report_memory();
     void report_dropped();
     [[nodiscard]] bool stopped() const {
         return control_.stop != nullptr && control_.stop->load(std::memory_order_relaxed);
@@ -118,6 +137,8 @@ class Renderer {
     bool capture_, write_files_;
     RenderResult result_;
     Checkpoint checkpoint_;
+    std::vector<FileClaim> claims_;  ///< on the files of all drivers
+    std::optional<LiveView> viewer_;
     std::mutex output_mutex_, progress_mutex_, workers_mutex_;
     std::atomic<std::uint64_t> samples_resumed_ = 0;
     std::atomic<std::uint64_t> samples_done_ = 0;
@@ -129,22 +150,16 @@ class Renderer {
         std::uint64_t n = 0;
     };
     std::vector<std::vector<NoiseSum>> noise_;
+    /// What progress tells of noise: the layer that adaptive sampling goes by, or the first one of light.
+    std::optional<std::size_t> watched_layer_;
+    std::mutex watched_mutex_;
+    NoiseSum watched_;
     Clock::time_point start_;
 };
 
 ImageHeader Renderer::header_of(const PlannedDriver& driver, std::size_t index) const {
     const RenderSettings& s = scene_.settings;
-    ImageHeader h;
-    h.width = s.width;
-    h.height = s.height;
-    h.data_x = s.region.x0;
-    h.data_y = s.region.y0;
-    h.data_width = s.region.x1 - s.region.x0 + 1;
-    h.data_height = s.region.y1 - s.region.y0 + 1;
-    h.pixel_aspect_ratio = s.pixel_aspect_ratio;
-    h.bucket_size = s.bucket_size;
-    for (const std::uint32_t layer : driver.layers)
-        h.layers.push_back(scene_.plan.layers[layer].info);
+    ImageHeader h = frame_header(scene_, driver);
     h.metadata["lightsieve/version"] = std::string(kVersion);
     h.metadata["lightsieve/samples_per_pixel"] = s.samples;
     if (s.samples_max > s.samples) h.metadata["lightsieve/samples_per_pixel_max"] = s.samples_max;
@@ -163,14 +178,50 @@ ImageHeader Renderer::header_of(const PlannedDriver& driver, std::size_t index) 
     return h;
 }
 
+/// Throws (file-in-use) if another render is writing one of the files.
+void Renderer::claim_files() {
+    for (const PlannedDriver& planned : scene_.plan.drivers)
+        claims_.emplace_back(planned.driver->path());
+}
+
 void Renderer::open_drivers() {
     if (!write_files_) return;
+    claim_files();
     bool all = true;
     for (std::size_t i = 0; i < scene_.plan.drivers.size(); ++i) {
         const PlannedDriver& planned = scene_.plan.drivers[i];
         all &= planned.driver->open(header_of(planned, i), diagnostics_);
     }
     if (!all) diagnostics_.throw_if_errors();
+}
+
+void Renderer::open_viewer() {
+    const ViewerSettings& settings = scene_.settings.viewer;
+    if (settings.address.empty()) return;
+    std::vector<ImageLayer> layers;
+    for (const std::size_t layer : settings.layers)
+        layers.push_back(scene_.plan.layers[layer].info);
+    const std::string file =
+        scene_.plan.drivers.empty() ? "" : scene_.plan.drivers.front().driver->path();
+    viewer_.emplace(settings.address, std::filesystem::path(file).filename().string(),
+                    scene_.settings.region, std::move(layers), scene_.color_spaces->rendering(),
+                    diagnostics_);
+}
+
+/// Hours may have passed since the files were opened: a folder that somebody removed meanwhile is made again.
+void Renderer::restore_folders() {
+    if (!write_files_) return;
+    for (const PlannedDriver& planned : scene_.plan.drivers) {
+        const std::filesystem::path folder =
+            std::filesystem::absolute(planned.driver->path()).parent_path();
+        std::error_code failed;
+        if (std::filesystem::exists(folder, failed)) continue;
+        if (std::filesystem::create_directories(folder, failed))
+            diagnostics_.warning(Code::FileUnwritable,
+                                 "the folder \"" + folder.string() +
+                                     "\" was removed while rendering; it was made again",
+                                 {}, "everything that was rendered is in it");
+    }
 }
 
 Worker& Renderer::worker() {
@@ -212,12 +263,14 @@ RenderResult Renderer::run() {
     result_.width = s.region.x1 - s.region.x0 + 1;
     result_.height = s.region.y1 - s.region.y0 + 1;
     if (capture_) make_room();
+    open_viewer();
     for (const Pass& pass : scene_.plan.passes)
         samples_total_ += static_cast<std::uint64_t>(result_.width) *
                           static_cast<std::uint64_t>(result_.height) *
                           static_cast<std::uint64_t>(most_samples(pass));
     const std::vector<BucketRect> buckets = buckets_of(s);
     noise_.assign(buckets.size(), std::vector<NoiseSum>(scene_.plan.layers.size()));
+    find_watched_layer();
     start_ = Clock::now();
     parallel_for(buckets.size(), s.threads, [&](std::size_t i) {
         if (stopped()) return;
@@ -232,8 +285,10 @@ RenderResult Renderer::run() {
     result_.stopped = stopped();
     result_.samples = samples_done_;
     result_.seconds = seconds_since(start_) - result_.output_seconds;
+    restore_folders();
     close_drivers();
     close_checkpoint();
+    if (viewer_) viewer_->finish();
     report();
     return std::move(result_);
 }
@@ -253,6 +308,12 @@ void Renderer::render_bucket(Worker& worker, std::size_t index, const BucketRect
         for (std::uint32_t d = 0; d < scene_.plan.drivers.size(); ++d)
             if (is_deep_of_pass(scene_.plan.drivers[d], p))
                 worker.deep[d] = worker.film.resolve_deep(d);
+    }
+    if (viewer_) {
+        std::vector<std::span<const float>> shown;
+        for (const std::size_t layer : scene_.settings.viewer.layers)
+            shown.emplace_back(worker.layers[layer]);
+        viewer_->show(rect.x, rect.y, rect.width, rect.height, shown);
     }
     deliver(worker, rect);
     report_progress(worker);
@@ -358,15 +419,32 @@ void Renderer::report_progress(Worker& worker) {
     samples_done_ += std::exchange(worker.n_unreported, 0);
     if (!control_.progress) return;
     const std::lock_guard lock(progress_mutex_);
-    control_.progress({samples_done_, samples_total_, seconds_since(start_)});
+    control_.progress({samples_done_, samples_total_, seconds_since(start_), noise_so_far()});
+}
+
+/// Halves of the samples tell the noise of means of light.
+bool Renderer::has_noise(const PlannedLayer& layer) const {
+    return is_light(layer.source) &&
+           scene_.plan.views[layer.view].filter->reduction() == Reduction::Mean;
+}
+
+void Renderer::find_watched_layer() {
+    watched_layer_ = scene_.plan.adaptive_layer;
+    for (std::size_t l = 0; l < scene_.plan.layers.size() && !watched_layer_; ++l)
+        if (has_noise(scene_.plan.layers[l])) watched_layer_ = l;
+}
+
+/// Of the layer that people watch, over the buckets that are done.
+double Renderer::noise_so_far() {
+    const std::lock_guard lock(watched_mutex_);
+    return watched_.n > 0 && watched_.square > 0 ? std::sqrt(watched_.variance / watched_.square)
+                                                 : -1;
 }
 
 /// Notes how noisy a layer of light is in a bucket.
 void Renderer::measure_noise(Worker& worker, std::size_t bucket, std::size_t layer) {
     const PlannedLayer& planned = scene_.plan.layers[layer];
-    if (!is_light(planned.source) ||
-        scene_.plan.views[planned.view].filter->reduction() != Reduction::Mean)
-        return;
+    if (!has_noise(planned)) return;
     worker.film.estimate_noise(&planned, kNoiseStep, worker.noise);
     NoiseSum& sum = noise_[bucket][layer];
     for (const PixelNoise& p : worker.noise) {
@@ -376,6 +454,11 @@ void Renderer::measure_noise(Worker& worker, std::size_t bucket, std::size_t lay
         sum.variance += p.variance;
         ++sum.n;
     }
+    if (layer != watched_layer_) return;
+    const std::lock_guard lock(watched_mutex_);
+    watched_.square += sum.square;
+    watched_.variance += sum.variance;
+    watched_.n += sum.n;
 }
 
 void Renderer::report_noise() {
@@ -488,14 +571,29 @@ void Renderer::report_dropped() {
     diagnostics_.add(std::move(warning));
 }
 
+void Renderer::report_memory() {
+    MemoryUse& use = result_.memory = memory_of(scene_);
+    use.film = noise_.size() * scene_.plan.layers.size() * sizeof(NoiseSum);
+    for (const auto& w : idle_)
+        use.film += w->memory();
+    for (const FrameLayer& layer : result_.layers)
+        use.layers += layer.pixels.capacity() * sizeof(float);
+    result_.peak_memory = peak_memory();
+    use.other = result_.peak_memory - std::min(result_.peak_memory, use.total());
+}
+
 void Renderer::report() {
     std::uint64_t dropped_closures = 0;
     for (const auto& w : idle_) {
-        result_.rays += w->integrator.counts.rays;
+        const RaysByKind& rays = w->integrator.counts.rays;
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            result_.rays_by_kind[i] += rays[i];
         result_.dropped_samples += w->integrator.counts.dropped;
         dropped_closures += w->integrator.counts.dropped_closures;
     }
+    result_.rays = sum_of(result_.rays_by_kind);
     report_noise();
+    report_memory();
     if (result_.dropped_samples > 0) report_dropped();
     if (dropped_closures > 0)
         diagnostics_.warning(

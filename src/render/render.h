@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "render/statistics.h"
 #include "scene/driver.h"
 
 namespace lightsieve {
@@ -56,6 +57,9 @@ struct RenderOptions {
     bool checkpoints = false;  ///< keep what is done beside the first file when ended before time
     bool resume = false;       ///< go on from there
     bool keep_checkpoint = false;  ///< also when the render is done
+    std::size_t max_memory = 0;    ///< a forecast above it is an error [bytes]; 0: no limit
+    std::string viewer;            ///< HOST:PORT of a tev that shows the picture as it grows
+    std::vector<std::string> viewer_layers;  ///< names; empty: the first layer; "*": all
 };
 
 /// What `lightsieve check` tells of a scene.
@@ -70,6 +74,9 @@ struct SceneSummary {
     std::vector<int> layer_file;     ///< index into `files` of each layer
     std::vector<std::string>
         partitions;  ///< "RGBA = direct + indirect + ..." proved for layers of one file
+    StageTimes times;
+    MemoryForecast forecast;
+    LogSettings log;
 };
 
 /// A Scene is opaque to callers and destroyed by this.
@@ -90,6 +97,9 @@ using ScenePtr = std::unique_ptr<Scene, SceneDelete>;
 struct RenderProgress {
     std::uint64_t samples_done = 0, samples_total = 0;  ///< camera samples
     double seconds = 0;                                 ///< since the first ray
+    /// Of the buckets that are done: a pixel's standard error over how bright pixels are, both root mean square, of the layer that
+    /// adaptive sampling goes by or the first one of light. Below 0: not known yet.
+    double noise = -1;
 };
 
 /// How a caller watches and stops a render.
@@ -124,6 +134,9 @@ struct RenderResult {
     std::uint64_t resumed_samples = 0;  ///< that a checkpoint had, not in `samples`
     std::string checkpoint;             ///< file from which a later render can go on; empty: none
     std::uint64_t rays = 0;             ///< closest-hit and shadow rays
+    RaysByKind rays_by_kind{};          ///< the same
+    MemoryUse memory;                   ///< at the end; `other` is the rest of `peak_memory`
+    std::size_t peak_memory = 0;        ///< of the process [bytes]; 0: not known
     std::uint64_t dropped_samples = 0;  ///< contributions that were not finite
     std::vector<std::string> files;     ///< written
     std::vector<LayerNoise> noise;      ///< layers of light, in order

@@ -30,6 +30,7 @@ class SampleSpread {
     /// Variance, unbiased if weights are equal, or range; 0 where there are too few samples.
     [[nodiscard]] Values spread(std::size_t pixel) const;
 
+    [[nodiscard]] std::size_t memory() const { return pixels_.capacity() * sizeof(Pixel); }
     void save(ByteWriter& out) const { out.put(pixels_); }
     /// What `save` wrote, after `begin`. False if it does not fit.
     [[nodiscard]] bool load(ByteReader& in) { return in.get(pixels_, pixels_.size()); }

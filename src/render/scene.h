@@ -53,9 +53,16 @@ struct ShaderList {
     bool may_be_transparent = false, may_tint_shadows = false;  ///< one of them may
 };
 
+/// Who sees the picture as it grows.
+struct ViewerSettings {
+    std::string address;              ///< HOST:PORT; empty: nobody
+    std::vector<std::size_t> layers;  ///< of the plan
+};
+
 /// What options and command line say, put together.
 struct RenderSettings {
     CheckpointSettings checkpoint;
+    ViewerSettings viewer;
     int width = 320, height = 240;
     Region region;  ///< inclusive, in pixels; may reach outside of the frame
     float pixel_aspect_ratio = 1;

@@ -71,9 +71,17 @@ struct DeepBucket {
         values;  ///< for each sample: the channels of all layers but alpha, layer after layer
 };
 
+/// What a driver will take [bytes].
+struct OutputForecast {
+    std::size_t memory = 0;      ///< pixels that wait until they can be written, at most
+    std::size_t file_bytes = 0;  ///< pixels in the file, before compression
+};
+
 class Driver {
   public:
     virtual ~Driver() = default;
+    /// What writing this will take; the file is not touched.
+    [[nodiscard]] virtual OutputForecast forecast(const ImageHeader& header) const = 0;
     /// Wants deep pixels (write_deep) in place of flat ones (write).
     [[nodiscard]] virtual bool deep() const { return false; }
     /// As write.

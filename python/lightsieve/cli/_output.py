@@ -12,9 +12,10 @@ import re
 import shutil
 import sys
 import textwrap
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TextIO
 
 import typer
 
@@ -22,6 +23,7 @@ from lightsieve.errors import Diagnostic, LightsieveError, without_place
 
 _STYLES = {"error": "bold red", "warning": "bold yellow", "lint": "bold cyan"}
 _json_wanted = False
+_copy: TextIO | None = None
 
 
 def _remember_json(wanted: bool) -> bool:
@@ -80,9 +82,32 @@ def print_table(rows: Iterable[Sequence[str]], styles: Sequence[str] = ()) -> No
         typer.echo("  ".join(cells).rstrip())
 
 
+@contextmanager
+def copied_to(file: TextIO) -> Iterator[None]:
+    """The file gets a copy of what is said, told and printed of diagnostics."""
+    global _copy
+    _copy = file
+    try:
+        yield
+    finally:
+        _copy = None
+
+
+def _keep(text: str) -> None:
+    if _copy is not None:
+        print(text, file=_copy, flush=True)
+
+
 def say(text: str) -> None:
     """Prints a line to standard error."""
     typer.echo(text, err=True)
+    _keep(text)
+
+
+def tell(text: str) -> None:
+    """Prints a line of a result to standard output."""
+    typer.echo(text)
+    _keep(text)
 
 
 def _width() -> int:
@@ -145,11 +170,14 @@ def print_diagnostics(items: Iterable[Diagnostic]) -> None:
         for item in items:
             say(item.rendered)
         return
+    items = list(items)
+    for item in items:
+        _keep(item.rendered)
     # Lines are fitted here, not wrapped by rich, so that carets stay under what they point at.
     width = shutil.get_terminal_size().columns
     if os.environ.get("NO_COLOR"):
         for item in items:
-            say(fitted(item.rendered, width))
+            typer.echo(fitted(item.rendered, width), err=True)
         return
     from rich.console import Console
 

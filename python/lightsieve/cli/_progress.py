@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from lightsieve._core import RenderProgress
 
 LOG_INTERVAL_S = 5.0
+_LONGEST_INTERVAL_S = 60.0
+# Of the time that a render has taken: an hour is told in about a hundred lines.
+_INTERVAL_SHARE = 0.05
 
 
 class Reporter(Protocol):
@@ -21,6 +24,15 @@ class Reporter(Protocol):
 
     def __call__(self, now: RenderProgress) -> None:
         """Shows it, or does not."""
+
+
+def interval_s(taken_s: float) -> float:
+    """Time between two lines of a log.
+
+    Args:
+        taken_s: By the render so far [s].
+    """
+    return min(max(LOG_INTERVAL_S, _INTERVAL_SHARE * taken_s), _LONGEST_INTERVAL_S)
 
 
 def _clock(seconds: float) -> str:
@@ -44,22 +56,31 @@ class _Clock:
         return rate, _clock((now.samples_total - now.samples_done) / rate) if rate > 0 else "?"
 
 
+def _noise(now: RenderProgress) -> str:
+    """How noisy the buckets are that are done, once it is known."""
+    return f", noise {now.noise:.1%}" if now.noise >= 0 else ""
+
+
 class _Log:
+    """A line every few seconds; the longer it takes the fewer."""
+
     def __init__(self) -> None:
         self._clock = _Clock()
-        self._next = time.monotonic() + LOG_INTERVAL_S
+        self._start = time.monotonic()
+        self._next = self._start + LOG_INTERVAL_S
         self._shown = 0
 
     def __call__(self, now: RenderProgress) -> None:
         rate, left = self._clock.rate_and_rest(now)
         if time.monotonic() < self._next or now.samples_done == self._shown:
             return
-        self._next = time.monotonic() + LOG_INTERVAL_S
+        taken = time.monotonic() - self._start
+        self._next = self._start + taken + interval_s(taken)
         self._shown = now.samples_done
         percent = 100 * now.samples_done // now.samples_total
         _output.say(
             f"{percent}%: {now.samples_done:,} of {now.samples_total:,} samples, "
-            f"{rate:,.0f} samples/s, {left} left"
+            f"{rate:,.0f} samples/s, {left} left{_noise(now)}"
         )
 
 
@@ -79,7 +100,7 @@ def _bar() -> Iterator[Reporter]:
 
         def show(now: RenderProgress) -> None:
             rate, left = clock.rate_and_rest(now)
-            text = f"{now.samples_done:,} samples, {rate:,.0f}/s, {left} left"
+            text = f"{now.samples_done:,} samples, {rate:,.0f}/s, {left} left{_noise(now)}"
             progress.update(
                 task, total=now.samples_total or None, completed=now.samples_done, description=text
             )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Unpack
 
@@ -28,6 +29,25 @@ LpeTable = Annotated[
 Assignments = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="NODE.PARAM=VALUE", help="Change a parameter; may be repeated."),
+]
+
+
+def _parse_bytes(text: str) -> int:
+    found = re.fullmatch(r"(\d+(?:\.\d+)?) ?([KMGT]?)(?:i?B)?", text, re.IGNORECASE)
+    if found is None:
+        raise typer.BadParameter(f'"{text}" is no size: write 4G, 512M or a number of bytes')
+    return int(float(found[1]) * 1024 ** " KMGT".index(found[2].upper() or " "))
+
+
+MaxMemory = Annotated[
+    Any,
+    typer.Option(
+        "--max-memory",
+        parser=_parse_bytes,
+        metavar="SIZE",
+        help="Refuse to render what may take more memory than this, such as 4G or 512M.",
+        show_default=False,
+    ),
 ]
 
 DIAGNOSTICS_JSON = {

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from lightsieve.cli import _output, _scene_options
+from lightsieve import statistics
+from lightsieve.cli import _output, _scene_options, _summary
 from lightsieve.cli._output import plural
 
 if TYPE_CHECKING:
@@ -25,7 +26,8 @@ JSON = {
     "summary": "null if errors forbid rendering, else an object: `width`, `height`, "
     "`samples_per_pixel`, `shapes`, `instances`, `triangles`, `spheres`, `lights`, `shaders`, "
     "`light_groups`, `expressions`, `states`, `atoms`, `files` (each `path` and `layers`: `name`, "
-    "`aov`, `type`, `expression`, `light_group`), `partitions`",
+    "`aov`, `type`, `expression`, `light_group`), `partitions`, "
+    "`forecast` (see `render`)",
     "aovs": "null if errors forbid rendering or the proofs would take too long, else an object: "
     "`sums` (each `whole`, `parts`, `everywhere`: over all paths, not only those of this scene, "
     "`lost_elsewhere`: null or `text`, `words`), `missing` (null, or what the layers that come "
@@ -68,6 +70,7 @@ def summary_document(summary: SceneSummary) -> dict[str, Any]:
             for index, path in enumerate(summary.files)
         ],
         "partitions": summary.partitions,
+        "forecast": statistics.forecast(summary),
     }
 
 
@@ -90,6 +93,7 @@ def _print_summary(scene: str, summary: SceneSummary) -> None:
             f"{plural(summary.n_states, 'state')} and {plural(summary.n_atoms, 'atom')}",
         ),
     ]
+    rows += _summary.forecast_rows(summary)
     for index, path in enumerate(summary.files):
         names = [
             layer.name
@@ -160,6 +164,7 @@ def command(
     lpe_standard: _scene_options.LpeStandard = False,
     lpe_table: _scene_options.LpeTable = None,
     assignments: _scene_options.Assignments = None,
+    max_memory: _scene_options.MaxMemory = None,
     json: _output.Json = False,
 ) -> None:
     """Report every error and lint of a scene.
@@ -175,6 +180,7 @@ def command(
         strict=strict,
         lpe_standard=lpe_standard,
         lpe_table=lpe_table or "",
+        max_memory=max_memory or 0,
     )
     summary = compiled.summary() if compiled.usable else None
     found = None

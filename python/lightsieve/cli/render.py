@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from lightsieve.cli import _output, _progress, _scene_options, _signals
+from lightsieve import statistics
+from lightsieve.cli import _log, _output, _progress, _scene_options, _signals, _summary
+from lightsieve.errors import LightsieveError
+from lightsieve.statistics import StatisticsFile
 
 if TYPE_CHECKING:
-    from lightsieve._core import CompiledScene, Outcome
+    from lightsieve._core import CompiledScene, LogSettings, Outcome
     from lightsieve.rendering import Settings
 
 EXAMPLE = (
@@ -21,20 +24,8 @@ EXAMPLE = (
 JSON = {
     "scene": "the file",
     **_scene_options.DIAGNOSTICS_JSON,
+    **statistics.KEYS,
     "files": "written; this and all below are missing if errors forbid rendering",
-    "stopped": "true if Ctrl-C ended it early",
-    "width": "of the rendered region [pixels]",
-    "height": "of the rendered region [pixels]",
-    "samples": "camera samples taken",
-    "resumed_samples": "camera samples that a checkpoint had, not in `samples`",
-    "checkpoint": "file from which --resume can go on, or null",
-    "dropped_samples": "contributions that were not finite",
-    "rays": "closest-hit and shadow rays",
-    "seconds": "sampling, without reading the scene and writing files",
-    "output_seconds": "writing files",
-    "samples_per_second": "`samples` / `seconds`",
-    "noise": "by layer of light: luminance as `mean` and root mean square (`level`), and the "
-    "standard `error` of a pixel's, root mean square",
 }
 
 
@@ -71,58 +62,8 @@ def _named(definitions: Sequence[str] | None) -> dict[str, str]:
 
 
 def _document(scene: Path, compiled: CompiledScene, outcome: Outcome | None) -> dict[str, Any]:
-    document: dict[str, Any] = {
-        "scene": str(scene),
-        **_scene_options.diagnostics_document(compiled),
-    }
-    if outcome is not None:
-        document |= {
-            "files": outcome.files,
-            "stopped": outcome.stopped,
-            "width": outcome.width,
-            "height": outcome.height,
-            "samples": outcome.samples,
-            "resumed_samples": outcome.resumed_samples,
-            "checkpoint": outcome.checkpoint or None,
-            "dropped_samples": outcome.dropped_samples,
-            "rays": outcome.rays,
-            "seconds": outcome.seconds,
-            "output_seconds": outcome.output_seconds,
-            "samples_per_second": outcome.samples / outcome.seconds
-            if outcome.seconds > 0
-            else 0.0,
-            "noise": {
-                name: {"mean": mean, "level": level, "error": error}
-                for name, mean, level, error in outcome.noise
-            },
-        }
-    return document
-
-
-def _print_summary(compiled: CompiledScene, outcome: Outcome) -> None:
-    for path in outcome.files:
-        typer.echo(f"wrote {path}")
-    rate = outcome.samples / outcome.seconds if outcome.seconds > 0 else 0.0
-    typer.echo(
-        f"{outcome.width} x {outcome.height} in {outcome.seconds:.1f} s "
-        f"(+ {outcome.output_seconds:.1f} s output): "
-        f"{outcome.samples:,} samples, {rate:,.0f} samples/s"
-    )
-    if outcome.resumed_samples:
-        typer.echo(f"{outcome.resumed_samples:,} samples were in the checkpoint")
-    if outcome.checkpoint:
-        typer.echo(f"--resume goes on from {outcome.checkpoint}")
-    if outcome.dropped_samples:
-        typer.echo(f"{_output.plural(outcome.dropped_samples, 'sample')} dropped: not finite")
-    if noisy := _noisiest(outcome):
-        typer.echo(f"noise left in a pixel, of the layer's level: {noisy}")
-    typer.echo(_scene_options.count_text(compiled))
-
-
-def _noisiest(outcome: Outcome, n: int = 4) -> str:
-    """The layers that are noisiest for how bright they are, worst first."""
-    shares = [(error / level, name) for name, _, level, error in outcome.noise if level > 0]
-    return ", ".join(f"{name} {share:.1%}" for share, name in sorted(shares)[: -n - 1 : -1])
+    document = {"scene": str(scene), **_scene_options.diagnostics_document(compiled)}
+    return document | ({} if outcome is None else statistics.of_render(compiled, outcome))
 
 
 def _say_stopped(outcome: Outcome, cause: str) -> None:
@@ -268,6 +209,33 @@ def command(
             help="Go on where a render was stopped: the same bits as if it had not been.",
         ),
     ] = False,
+    max_memory: _scene_options.MaxMemory = None,
+    tev: Annotated[
+        str,
+        typer.Option(
+            metavar="HOST:PORT",
+            help="Show the picture in the viewer tev as it grows; its usual port is 14158.",
+            show_default=False,
+        ),
+    ] = "",
+    tev_aovs: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--tev-aov",
+            metavar="NAME",
+            help="A layer that tev is to show, '*' for all; may be repeated. The first one if not "
+            "given.",
+        ),
+    ] = None,
+    stats: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.json",
+            help="Write the render's statistics there, for machines; wins over "
+            "options.stats_file.",
+            show_default=False,
+        ),
+    ] = None,
     isa: Annotated[
         Literal["sse2", "avx2", "avx512"] | None,
         typer.Option(
@@ -279,7 +247,11 @@ def command(
     verbosity: Annotated[
         int | None,
         typer.Option(
-            "-v", metavar="N", help="As kick takes it; 0 is --quiet.", show_default=False
+            "-v",
+            metavar="N",
+            help="0: errors only, as --quiet; 1: a summary; 2: everything. Wins over "
+            "options.log_verbosity.",
+            show_default=False,
         ),
     ] = None,
     json: _output.Json = False,
@@ -310,6 +282,9 @@ def command(
         "checkpoint": None if no_checkpoint else checkpoint,
         "resume": resume,
         "keep_checkpoint": keep_checkpoint,
+        "max_memory": max_memory or 0,
+        "tev": tev,
+        "tev_aovs": tev_aovs or (),
         "output": output,
         "aa": aa or 0,
         "spp": spp or 0,
@@ -319,41 +294,54 @@ def command(
         settings["region"] = region
     if seed is not None:
         settings["seed"] = seed
-    silent = quiet or verbosity == 0
     compiled = _scene_options.compile_scene(
         path, write_files=True, assignments=assignments, **settings
     )
-    with _signals.interrupt() as came:
-        outcome = _run(compiled, came, silent=silent, json=json)
-    if json:
-        _output.print_json(_document(path, compiled, outcome))
-    elif outcome is not None and not silent:
-        _print_summary(compiled, outcome)
+    log = compiled.summary().log if compiled.usable else None
+    if quiet or verbosity is not None:
+        level = 0 if quiet else verbosity or 0
+    else:
+        level = 1 if log is None else log.verbosity
+    with _log.copied_to("" if log is None else log.file):
+        printed = _log.Printed(compiled, silent=level <= 0, json=json, log=log)
+        printed.report()
+        file = _statistics_file(stats, log)
+        with _signals.interrupt() as came:
+            outcome = _run(compiled, level=level)
+        printed.report()
+        if outcome is not None and outcome.interrupted:
+            _say_stopped(outcome, _signals.name_of(came[0]))
+        document = _document(path, compiled, outcome)
+        if file is not None and outcome is not None:
+            file.write(document)
+        if json:
+            _output.print_json(document)
+        elif outcome is not None and level > 0:
+            _summary.print_render(compiled, outcome, everything=level > 1)
     if came:
         raise typer.Exit(_signals.exit_code(came[0]))
     if compiled.n_errors:
         raise typer.Exit(1)
 
 
-def _run(compiled: CompiledScene, came: list[int], *, silent: bool, json: bool) -> Outcome | None:
-    """Renders if that is possible, with diagnostics and progress on standard error.
+def _statistics_file(wanted: Path | None, log: LogSettings | None) -> StatisticsFile | None:
+    """The file that is asked for, or that the scene names: a bad one of the scene is no error."""
+    if wanted is not None:
+        return StatisticsFile(wanted, append=False)
+    if log is None or not log.stats_file:
+        return None
+    try:
+        return StatisticsFile(log.stats_file, append=log.stats_append)
+    except LightsieveError as error:
+        _output.say(f"warning: options.stats_file: {error.errors[0].message}")
+        return None
 
-    `came` has the signals that came so far.
-    """
 
-    def report(first: int) -> int:
-        items = compiled.diagnostics
-        if not json:
-            shown = (item for item in items[first:] if not silent or item.severity == "error")
-            _output.print_diagnostics(shown)
-        return len(items)
-
-    n_reported = report(0)
+def _run(compiled: CompiledScene, *, level: int) -> Outcome | None:
+    """Renders if that is possible, with progress on standard error."""
     if not compiled.usable:
         return None
-    with _progress.reporter(quiet=silent) as progress:
-        outcome = compiled.render(progress)
-    report(n_reported)
-    if outcome.interrupted:
-        _say_stopped(outcome, _signals.name_of(came[0]))
-    return outcome
+    if level > 1:
+        _summary.say_forecast(compiled.summary())
+    with _progress.reporter(quiet=level <= 0) as progress:
+        return compiled.render(progress)

@@ -57,6 +57,33 @@ bool PictureDriver::fits(const ImageHeader& header, Diagnostics& diagnostics) co
     return true;
 }
 
+namespace {
+
+/// Of one value in the file.
+std::size_t bytes_of(PictureType type) {
+    switch (type) {
+        case PictureType::UInt8: return 1;
+        case PictureType::UInt16: return 2;
+        case PictureType::UInt32:
+        case PictureType::Float: break;
+    }
+    return 4;
+}
+
+}  // namespace
+
+OutputForecast PictureDriver::forecast(const ImageHeader& header) const {
+    const bool padded = options_.output_padded;
+    const std::size_t n_channels = header.layers.empty() ? 0 : header.layers[0].n_channels,
+                      n_stored =
+                          options_.skip_alpha ? std::min<std::size_t>(n_channels, 3) : n_channels;
+    const std::size_t n_values =
+        static_cast<std::size_t>(padded ? header.width : header.data_width) *
+        static_cast<std::size_t>(padded ? header.height : header.data_height) *
+        (n_stored == 2 ? 3 : n_stored);
+    return {n_values * sizeof(float), n_values * bytes_of(options_.type)};
+}
+
 bool PictureDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {
     if (!fits(header, diagnostics)) return false;
     layer_ = header.layers[0];

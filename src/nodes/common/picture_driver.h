@@ -35,6 +35,7 @@ class PictureDriver final : public Driver {
                   NodeContext& context);
 
     [[nodiscard]] std::string path() const override { return path_; }
+    [[nodiscard]] OutputForecast forecast(const ImageHeader& header) const override;
     [[nodiscard]] bool open(const ImageHeader& header, Diagnostics& diagnostics) override;
     void write(const Bucket& bucket) override;
     [[nodiscard]] bool close(Diagnostics& diagnostics) override;

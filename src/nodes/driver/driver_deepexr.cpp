@@ -73,6 +73,8 @@ class DeepExrDriver final : public Driver {
 
     [[nodiscard]] bool deep() const override { return true; }
     [[nodiscard]] std::string path() const override { return path_; }
+    /// As if every pixel held one sample: nobody knows how many there will be.
+    [[nodiscard]] OutputForecast forecast(const ImageHeader& header) const override;
     [[nodiscard]] bool open(const ImageHeader& header, Diagnostics& diagnostics) override;
     void write(const Bucket&) override {}
     void write_deep(const DeepBucket& bucket) override;
@@ -111,6 +113,17 @@ void DeepExrDriver::add_layer(const ImageLayer& layer, std::size_t index) {
     }
     n_values_ += n;
     describe_exr_layer(layer, spec_->attributes);
+}
+
+OutputForecast DeepExrDriver::forecast(const ImageHeader& header) const {
+    std::size_t n_values = 3;  // alpha and two depths
+    for (const ImageLayer& layer : header.layers)
+        n_values += std::min<std::size_t>(layer.n_channels, 3);
+    const std::size_t n_pixels = static_cast<std::size_t>(header.data_width) *
+                                 static_cast<std::size_t>(header.data_height),
+                      pixels = n_pixels * n_values * sizeof(float);
+    // Runs by pixel, and in the end all channels once more.
+    return {n_pixels * sizeof(DeepRun) + 2 * pixels, pixels};
 }
 
 bool DeepExrDriver::open(const ImageHeader& header, Diagnostics& diagnostics) {

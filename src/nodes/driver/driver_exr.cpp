@@ -168,6 +168,7 @@ class ExrDriver final : public Driver {
     }
 
     [[nodiscard]] std::string path() const override { return path_; }
+    [[nodiscard]] OutputForecast forecast(const ImageHeader& header) const override;
     [[nodiscard]] bool open(const ImageHeader& header, Diagnostics& diagnostics) override;
     void write(const Bucket& bucket) override;
     [[nodiscard]] bool close(Diagnostics& diagnostics) override;
@@ -218,6 +219,31 @@ ExrWriteSpec ExrDriver::make_spec(const ImageHeader& header) const {
         describe_exr_layer(layer, spec.attributes);
     }
     return spec;
+}
+
+OutputForecast ExrDriver::forecast(const ImageHeader& header) const {
+    const ExrWriteSpec spec = make_spec(header);
+    const auto width = static_cast<std::size_t>(spec.data_width),
+               height = static_cast<std::size_t>(spec.data_height),
+               side = static_cast<std::size_t>(spec.tile_size);
+    std::size_t n_channels = 0, bytes = 0;
+    for (const ExrPart& part : spec.parts)
+        for (const ExrChannel& channel : part.channels) {
+            ++n_channels;
+            bytes += channel.type == ExrPixelType::Half ? 2 : 4;
+        }
+    OutputForecast out{0, width * height * bytes};
+    if (node_.autocrop)
+        out.memory = width * height * n_channels * sizeof(float);
+    else if (spec.tiled && spec.tile_size == header.bucket_size)
+        out.memory = side * side * bytes;
+    else  // Bands of rows that are not complete yet.
+        out.memory =
+            2 * width * std::min(std::max(side, std::size_t(header.bucket_size)), height) * bytes;
+    std::error_code ignored;
+    if (node_.append && std::filesystem::exists(path_, ignored))
+        out.memory += width * height * n_channels * sizeof(float);
+    return out;
 }
 
 bool ExrDriver::names_are_distinct(const ImageHeader& header, Diagnostics& diagnostics) const {

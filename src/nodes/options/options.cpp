@@ -9,6 +9,7 @@ namespace {
 /// A region bound that was not written: the edge of the frame.
 constexpr std::int32_t kNoRegion = std::numeric_limits<std::int32_t>::min();
 
+enum class StatsMode : std::int32_t { Overwrite, Append };
 enum class BucketScanning : std::int32_t { Top, Left, Random, Spiral, Hilbert };
 
 // Defaults: logs of Arnold for scenes that leave the parameter out.
@@ -71,7 +72,8 @@ struct Options {
     // Machine, log and host.
     std::int32_t threads = 0, max_subdivisions = 255;
     Name pin_threads{"auto"}, thread_priority{"lowest"}, render_device{"CPU"}, stats_file,
-        stats_mode, profile_file;
+        profile_file;
+    StatsMode stats_mode = StatsMode::Overwrite;
     bool enable_progressive_render = false, enable_progressive_pattern = false,
          parallel_node_init = true;
     bool enable_dependency_graph = false, enable_aov_composition = false,
@@ -304,9 +306,9 @@ void describe_files(Describe<Options>& d) {
             "Arnold's refusal of textures without tiles.")
         .ignored();
     d.param("texture_max_memory_MB", &Options::texture_max_memory_MB,
-            "Size of Arnold's texture cache.")
+            "Bound on the texels in memory; what does not fit is read again when it is needed.")
         .unit("MB")
-        .ignored();
+        .range(16, 1 << 24);
     d.param("texture_max_open_files", &Options::texture_max_open_files,
             "Open files of Arnold's texture cache.")
         .ignored();
@@ -407,12 +409,18 @@ void describe_machine(Describe<Options>& d) {
     d.param("procedural_force_expand", &Options::procedural_force_expand, "Arnold's start-up.")
         .ignored();
     d.param("preserve_scene_data", &Options::preserve_scene_data, "Arnold's memory.").ignored();
-    d.param("stats_file", &Options::stats_file, "Arnold's log.").ignored();
-    d.param("stats_mode", &Options::stats_mode, "Arnold's log.").ignored();
+    d.param("stats_file", &Options::stats_file,
+            "File that a render's statistics are written to, for machines (JSON); empty: none.");
+    d.param("stats_mode", &Options::stats_mode,
+            "Whether that file is written anew, or goes on with what it holds.")
+        .names({"overwrite", "append"});
     d.param("profile_file", &Options::profile_file, "Arnold's log.").ignored();
-    d.param("log_file", &Options::log_file, "Arnold's log.").ignored();
-    d.param("log_verbosity", &Options::log_verbosity, "Arnold's log.").ignored();
-    d.param("log_max_warnings", &Options::log_max_warnings, "Arnold's log.").ignored();
+    d.param("log_file", &Options::log_file,
+            "File that gets what the command line says; empty: none.");
+    d.param("log_verbosity", &Options::log_verbosity,
+            "0: errors only; 1: warnings, progress and a summary; 2 and more: everything. -v and "
+            "--quiet win.");
+    d.param("log_max_warnings", &Options::log_max_warnings, "Warnings that are printed.");
 }
 
 NodeType Options::describe() {
