@@ -71,8 +71,15 @@ void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_
         return;
     }
     const LobeRecord& made = record(lobe);
-    closures_[n_++] = {
-        model, total, &made, frame, caustics, indirect_of(made), indirect_.direct_light};
+    // Member by member: a whole one would be put together elsewhere and copied.
+    Closure& out = closures_[n_++];
+    out.model = model;
+    out.weight = total;
+    out.record = &made;
+    out.frame = frame;
+    out.caustics = caustics;
+    out.indirect = indirect_of(made);
+    out.direct_light = indirect_.direct_light;
 }
 
 void ClosureSet::add_subsurface(int lobe, const SubsurfaceMedium& medium, Color weight) {

@@ -104,6 +104,41 @@ TEST(Splitting, NoSamplesIsNoIndirectLight) {
     EXPECT_TRUE(check_constant(lit, "RGBA", Color::grey(0.5F / kPi * std::sqrt(0.5F)), 1e-4));
 }
 
+/// A point of a glossy floor.
+std::string glossy_point(const std::string& options) {
+    return frame_text(16, 16, 1, ortho_camera({0.7F, 0.5F, 0.4F}, {0, 0, 0}, 1e-3F),
+                      " low_light_threshold 0\n" + options) +
+           node("standard_surface", "glossy",
+                " base 0.8\n base_color 1 1 1\n specular 1\n specular_roughness 0.3") +
+           floor("ground", 0, 3, "glossy");
+}
+
+TEST(Splitting, KindsHaveRaysOfTheirOwn) {
+    // Rays and light samples with a cosine density, alone, are all worth the same; those of the gloss would not be.
+    const std::string text =
+        glossy_point(gi_samples(2)) + node("skydome_light", "sky", " intensity 1");
+    const Picture picture = render(text, in_memory({"diffuse", "specular"}));
+    const Estimate diffuse = estimate(picture, "diffuse", 1);
+    ASSERT_TRUE(check_lit(picture, "specular"));
+    EXPECT_LT(diffuse.error, 1e-4 * diffuse.mean);
+}
+
+TEST(Splitting, NoSamplesOfAKindIsNoneOfItsIndirectLightInOthersRays) {
+    const std::string around =
+        node("flat", "bright", " color 1 1 1") +
+        quad("wall", {-50, 1, -50}, {50, 1, -50}, {50, 1, 50}, {-50, 1, 50}, "bright");
+    const std::string depths = " GI_diffuse_depth 1\n GI_specular_depth 1\n";
+    for (const int n : {1, 2}) {
+        const Picture picture =
+            render(glossy_point(depths + " GI_specular_samples 0\n GI_diffuse_samples " +
+                                std::to_string(n) + '\n') +
+                       around,
+                   in_memory({"diffuse", "specular"}));
+        EXPECT_TRUE(check_lit(picture, "diffuse"));
+        EXPECT_TRUE(check_black(picture, "specular"));
+    }
+}
+
 TEST(Splitting, WhatIsSeenThroughHolesIsExact) {
     // A path goes on behind every hole and scatters at it as well: opacity leaves no noise.
     const Picture picture =

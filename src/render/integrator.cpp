@@ -18,8 +18,6 @@ namespace {
 constexpr float kCoplanar = 1e-4F, kRounding = 1e-6F;
 /// Area lights that one ray may pass.
 constexpr int kMaxLightsAlongRay = 256;
-/// Of the numbers that shaders' own random numbers start from; the others are small.
-constexpr std::uint32_t kShaderStream = 64;
 
 /// The sampler's pair of dimensions for the path's wavelength; camera_sample has those before it.
 constexpr std::size_t kWavelengthPair = 3;
@@ -27,7 +25,7 @@ constexpr std::size_t kWavelengthPair = 3;
 float unit(float v) { return std::clamp(v, 0.0F, 1.0F); }
 
 /// The ray of a group as a bit of a mask.
-std::uint32_t bit_of(const PathGroup& group) { return ray_bit(group.key.ray_type); }
+std::uint32_t bit_of(const PathGroup& group) { return ray_bit(group.key.ray_type()); }
 
 /// Whether a lamp that a ray meets `beyond` a surface (along the ray) lies farther behind it than rounding explains.
 bool is_behind(const LightHit& lamp, float beyond, const Ray& ray) {
@@ -91,6 +89,7 @@ void Integrator<Tracker>::trace_path(const CameraRay& camera_ray, float time,
     path_.monochromatic = path_.exit_pending = knows_first_ = false;
     path_.fans_out = true;
     path_.state = state;
+    path_.state.sampler = &path_.sampler;
     path_.state.camera_from_world = &camera_from_world;
     path_.state.pixel_angle = camera_ray.spread;
     wavelength_ =
@@ -117,7 +116,7 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
         update_state();
         if (path_.exit_pending) add_exit_background(ray);
         lights_only_ = std::all_of(path_.groups.all().begin(), path_.groups.all().end(),
-                                   [](const PathGroup& g) { return g.key.lights_only; });
+                                   [](const PathGroup& g) { return g.key.lights_only(); });
         RayHit hit;
         ++counts.rays_of(ray_kind_of(path_.groups[0].key.ray_type));
         const bool met = scene_.accel->intersect(ray, ray_mask(), hit);
@@ -139,7 +138,7 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
             in_medium ? Surface(medium_vertex_)
                       : make_surface(scene_.objects[hit.object], ray, hit, path_.footprint);
         if (!in_medium) {
-            meet(surface, path_.groups[0].key.ray_type);
+            meet(surface, path_.groups[0].key.ray_type());
             const Arrival arrival = arrive(surface, ray, camera_from_world);
             if (arrival == Arrival::Ended) return;
             if (arrival == Arrival::Passed) continue;
@@ -226,7 +225,7 @@ void Integrator<Tracker>::choose_mask_group() {
         u -= luminance(groups[chosen++].throughput);
     const float y = luminance(groups[chosen].throughput);
     if (!(y > 0)) return;
-    path_.passed *= path_.groups[chosen].key.seen ? total / y : 0;
+    path_.passed *= path_.groups[chosen].key.seen() ? total / y : 0;
     path_.groups.keep_only(chosen, total / y);
     tracker_.keep_only(chosen, total / y);
 }
@@ -234,11 +233,11 @@ void Integrator<Tracker>::choose_mask_group() {
 /// Counts for shaders the event that the ray came by.
 template <class Tracker>
 void Integrator<Tracker>::update_state() {
-    path_.state.seed = static_cast<std::uint32_t>(random(kShaderStream) * 0x1p24F);
+    path_.state.segment = path_.segment;
     path_.state.transparent = path_.n_transparent;
     if (path_.state.bounces == path_.n_scatter) return;
     path_.state.bounces = path_.n_scatter;
-    switch (path_.groups[0].key.ray_type) {
+    switch (path_.groups[0].key.ray_type()) {
         case RayType::Camera:
         case RayType::Shadow: break;
         case RayType::SpecularReflect: ++path_.state.specular; break;
@@ -367,14 +366,14 @@ void Integrator<Tracker>::add_met_light(std::uint32_t index, const LightEval& ev
     const auto brought = [&](std::size_t g) {
         if (!path_.groups.direct_light(g)) return kBlack;
         return arriving *
-               light_factor(light.common, path_.groups[g].key.ray_type, path_.n_scatter);
+               light_factor(light.common, path_.groups[g].key.ray_type(), path_.n_scatter);
     };
     // A skydome that is seen, be it through glass, is background.
     if (!light.is_skydome || !some_group_is_seen()) return deposit(terminal, brought);
     deposit(terminal,
-            [&](std::size_t g) { return path_.groups[g].key.seen ? kBlack : brought(g); });
+            [&](std::size_t g) { return path_.groups[g].key.seen() ? kBlack : brought(g); });
     deposit({light.as_background, light.background_event},
-            [&](std::size_t g) { return path_.groups[g].key.seen ? brought(g) : kBlack; });
+            [&](std::size_t g) { return path_.groups[g].key.seen() ? brought(g) : kBlack; });
 }
 
 /// Where shadow rays see other shapes than other rays do, they decide for both twins what hides a light.
@@ -424,14 +423,14 @@ void Integrator<Tracker>::add_escape(const Ray& ray) {
         const auto [radiance, opaque] = background_along(ray, path_.n_scatter == 0);
         const auto visible = [&](std::size_t g) {
             return (scene_.background_visibility & bit_of(path_.groups[g])) != 0 &&
-                   !path_.groups[g].key.lights_only;
+                   !path_.groups[g].key.lights_only();
         };
         deposit({scene_.background_record.terminal, scene_.background_record.event},
                 [&](std::size_t g) {
                     return visible(g) ? radiance * path_.groups.indirect(g) : kBlack;
                 });
         for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
-            if (path_.groups[g].key.seen && visible(g)) alpha = std::max(alpha, unit(opaque));
+            if (path_.groups[g].key.seen() && visible(g)) alpha = std::max(alpha, unit(opaque));
     }
     if (seen()) out_->add_alpha(average(path_.passed) * alpha, path_.passed * alpha);
 }
@@ -444,7 +443,7 @@ void Integrator<Tracker>::add_exit_background(const Ray& ray) {
     const Color radiance = background_along(ray, false).rgb;
     deposit({scene_.background_record.terminal, scene_.background_record.event},
             [&](std::size_t g) {
-                return path_.groups[g].key.exits &&
+                return path_.groups[g].key.exits() &&
                                (scene_.background_visibility & bit_of(path_.groups[g])) != 0
                            ? radiance * path_.groups.indirect(g)
                            : kBlack;
@@ -460,7 +459,7 @@ ShaderValue Integrator<Tracker>::background_along(const Ray& ray, bool behind_pi
     ShadePoint at;
     at.direction = ray.direction;
     at.wo = -ray.direction;
-    at.ray_type = path_.groups[0].key.ray_type;
+    at.ray_type = path_.groups[0].key.ray_type();
     at.ray = &path_.state;
     at.time = ray.time;
     if (behind_picture) at.uv = path_.state.screen * 0.5F + Vec2f{0.5F, 0.5F};
@@ -534,7 +533,7 @@ void Integrator<Tracker>::add_shadow_matte(const Surface& surface, const Ray& ra
     const float covered = unit(shadow_.mask * matte.opacity), left = 1 - covered;
     const auto show = [&](const LobeRecord& record, Color radiance) {
         deposit({record.terminal, record.event}, [&](std::size_t g) {
-            return path_.groups[g].key.lights_only
+            return path_.groups[g].key.lights_only()
                        ? kBlack
                        : matte.weight * radiance * path_.groups.indirect(g);
         });
@@ -559,14 +558,14 @@ template <class Tracker>
 bool Integrator<Tracker>::some_group_is_seen() const {
     const std::span<const PathGroup> groups = path_.groups.all();
     return std::any_of(groups.begin(), groups.end(),
-                       [](const PathGroup& g) { return g.key.seen; });
+                       [](const PathGroup& g) { return g.key.seen(); });
 }
 
 template <class Tracker>
 void Integrator<Tracker>::add_emission(float factor) {
     for (const Emission& e : closures_.emissions())
         deposit({e.record->terminal, e.record->event}, [&](std::size_t g) {
-            return path_.groups[g].key.lights_only
+            return path_.groups[g].key.lights_only()
                        ? kBlack
                        : e.radiance * path_.groups.indirect(g) * factor;
         });
@@ -616,7 +615,7 @@ void Integrator<Tracker>::add_probes() {
     tracker_.add_scattered(
         std::span(channels_.data(), n_channels_), {scene_.probe, scene_.probe_event},
         [&](std::size_t g, std::size_t c) {
-            const bool none = path_.groups[g].key.lights_only ||
+            const bool none = path_.groups[g].key.lights_only() ||
                               !channel_allowed(path_.groups[g].key, channels_[c]) ||
                               channels_[c].record->makes_no_event;
             return none ? kBlack : albedo[c] * path_.groups.indirect(g);

@@ -171,8 +171,16 @@ class Integrator {
         const bool both_sides = transmissive_ || surface.object->tampers_with_shadows();
         return both_sides ? Vec3f{} : surface.at.normal;
     }
-    /// How many rays go on by each kind of scattering, on average.
-    using RayCounts = std::array<float, kGiKinds>;
+    /// How many rays go on by each kind of scattering.
+    struct RayCounts {
+        std::array<float, kGiKinds> rays{};  ///< that a kind's rays stand for: below 1 by chance
+        std::array<std::uint32_t, kGiKinds> n{};  ///< that there are
+        std::uint32_t total = 0;                  ///< of n
+        std::size_t last = 0;                     ///< kind that has some
+        float left = 0;  ///< if it is one ray: a number in [0, rays[last])
+        /// From averages to numbers; u in [0,1).
+        void round(float u);
+    };
     /// The scatterers of a kind together.
     struct KindSum {
         float probability = 0;
@@ -185,10 +193,20 @@ class Integrator {
     [[nodiscard]] bool leads_nowhere(const Channel& channel) const;
     [[nodiscard]] float volume_rays(const Channel& channel) const;
     [[nodiscard]] float carried() const;
-    /// Splits the path: puts one aside for each ray that leaves the surface. True if the ray also goes straight on.
+    [[nodiscard]] float rays_of(GiKind kind, const Channel& channel, float share,
+                                float largest_share) const;
+    /// As `go_on`, where the path splits: puts one aside for each ray that leaves the surface.
     bool fan_out(const Surface& surface, Ray& ray);
+    void split(const Surface& surface, const Ray& ray, const RayCounts& counted);
     void put_aside(const Ray& ray);
-    [[nodiscard]] bool is_enabled(std::size_t scatterer) const;
+    /// GI_*_samples 0 switches a kind of scattering off.
+    [[nodiscard]] bool is_enabled(const Channel& channel) const {
+        return scene_.settings.gi_samples.of(gi_kind(*channel.record, false)) > 0;
+    }
+    [[nodiscard]] bool is_enabled(std::size_t scatterer) const {
+        return mixture_[channel_of_[scatterer]] != kNoRays;
+    }
+    void separate_kinds();
 
     // Media (integrator_media.cpp).
     /// Through media from where the ray has come to up to `to`.
@@ -255,10 +273,21 @@ class Integrator {
     /// light   whose shadows they are: shapes may cast them in some lights only
     [[nodiscard]] Visibility visibility_along(Ray ray, const SceneObject* ignore,
                                               std::uint32_t light);
+    /// weights  of the light sample, by channel
     [[nodiscard]] float low_light_survival(std::span<const Color> by_channel,
-                                           const SceneLight& light, Color incident) const;
-    /// Values by channel for a direction, and the mixture's density.
-    float evaluate(const Surface& surface, Vec3f wi, std::span<Color> by_channel) const;
+                                           std::span<const float> weights, const SceneLight& light,
+                                           Color incident) const;
+    /// Scatterers of one mixture share their rays: each ray carries what all of them scatter into its direction. Where the
+    /// path splits there is one for each kind of rays, elsewhere one for all. The last is of those that send no rays.
+    static constexpr std::uint8_t kNoRays = kGiKinds;
+    /// Density of the rays of each mixture in a direction, per solid angle.
+    using Densities = std::array<float, kGiKinds + 1>;
+    /// Adds up values by channel and densities for a direction.
+    [[nodiscard]] Densities evaluate(const Surface& surface, Vec3f wi,
+                                     std::span<Color> by_channel) const;
+    /// The same for one mixture alone.
+    [[nodiscard]] float evaluate(const Surface& surface, Vec3f wi, std::uint8_t mixture,
+                                 std::span<Color> by_channel) const;
     [[nodiscard]] float light_factor(const LightCommon& light, RayType type, int n_scatter) const;
     [[nodiscard]] float clamp_factor(Color total, int n_scatter) const;
     [[nodiscard]] float random(std::uint32_t stream) const {
@@ -347,9 +376,11 @@ class Integrator {
     /// How many rays each scatterer sends on, on average: where there is one ray, the probability of drawing it.
     std::array<float, kMaxChannels> probability_;
     std::array<GiKind, kMaxChannels> kind_of_;  ///< each scatterer's, where the path splits
-    Wavelength wavelength_;                     ///< that the path takes when it must
-    MediaPath media_;                           ///< along the current ray
-    float media_t_ = 0;                         ///< how far the ray has come through them
+    std::array<std::uint8_t, kMaxChannels>
+        mixture_;            ///< that the scatterers of each channel share
+    Wavelength wavelength_;  ///< that the path takes when it must
+    MediaPath media_;        ///< along the current ray
+    float media_t_ = 0;      ///< how far the ray has come through them
     /// Of the segment: 0 the first collision; 1 point along the ray and choice of light; 2 point on that light.
     std::array<Vec2f, 4> media_points_;
     /// The atmosphere along the current ray.

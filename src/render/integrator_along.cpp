@@ -120,7 +120,7 @@ void Integrator<Tracker>::add_light_along(const Ray& ray, const AlongRay& part, 
     const Color value = part.medium.scattering * sample.radiance * arriving *
                         (weight * phase / (sample.pdf * pdf));
     deposit_scattered({light.as_light, light.light_event}, [&](std::size_t g, std::size_t) {
-        return path_.groups[g].key.lights_only
+        return path_.groups[g].key.lights_only()
                    ? kBlack
                    : value * light_factor(light.common, RayType::Volume, path_.n_scatter + 1);
     });
@@ -163,7 +163,7 @@ void Integrator<Tracker>::add_haze(const Ray& ray, float to) {
     at.wo = at.normal = at.geometric_normal = -ray.direction;
     at.direction = ray.direction;
     at.time = ray.time;
-    at.ray_type = path_.groups[0].key.ray_type;
+    at.ray_type = path_.groups[0].key.ray_type();
     at.ray_length = std::min(to, kHorizon);
     closures_.begin_volume(at.wo);
     scene_.atmosphere->closures(at, closures_);
@@ -197,8 +197,9 @@ void Integrator<Tracker>::add_glow(float to) {
     }
     for (const Emission& e : closures_.emissions())
         deposit({e.record->terminal, e.record->event}, [&](std::size_t g) {
-            return path_.groups[g].key.lights_only ? kBlack
-                                                   : e.radiance * seen * path_.groups.indirect(g);
+            return path_.groups[g].key.lights_only()
+                       ? kBlack
+                       : e.radiance * seen * path_.groups.indirect(g);
         });
 }
 

@@ -45,7 +45,7 @@ void Integrator<Tracker>::deposit_scattered_light(const SceneLight& light, const
     if (!light.is_skydome) return deposit_scattered(as_light, value);
     if (light.common.aov_indirect) return deposit_scattered(as_background, value);
     const auto is_seen = [&](std::size_t g, std::size_t c) {
-        return path_.groups[g].key.seen && channels_[c].record->makes_no_event;
+        return path_.groups[g].key.seen() && channels_[c].record->makes_no_event;
     };
     deposit_scattered(as_light, [&](std::size_t g, std::size_t c) {
         return is_seen(g, c) ? kBlack : value(g, c);

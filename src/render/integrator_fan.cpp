@@ -2,11 +2,12 @@
 // rays go on as options.GI_*_samples say; from there on each is a single path.
 //
 // Rays of each kind are drawn from the scatterers of that kind alone, so that a faint reflection gets its rays however
-// bright the rest is. A direction still belongs to every lobe: each lobe's value counts over the density of all rays
-// together, the sum of rays times densities (balance heuristic over all kinds, Veach 1997, eq. 9.15). Light samples are
-// weighted against the same sum. A number of rays need not be whole: chance decides about the rest.
+// bright the rest is, and carry light through these alone: what a kind sends on does not get noisier by rays that were
+// drawn for another. Within a kind a direction belongs to every lobe (balance heuristic, Veach 1997, eq. 9.15), and light
+// samples are weighted against the rays of the kind. A number of rays need not be whole: chance decides about the rest.
 //
-// One sample of each kind means one path, as everywhere else, whose kind is drawn by what it can carry on. Of the rays that
+// One sample of each kind means one path, as everywhere else, whose kind is drawn by what it can carry on and which carries
+// light through all: of one sample that is the best use (Veach 1997, section 9.2.4). Of the rays that
 // the options ask for beyond that, the faint kinds get fewer, by the root of their share: by the share itself the beauty
 // would have the least noise for its time, but the layers of faint kinds ever more. The share is that in the colour where
 // it is largest: upon a red wall the gloss is most of what is blue.
@@ -79,6 +80,8 @@ void Integrator<Tracker>::ask_lights(const Surface& surface, LightPlan plan) {
     for (const std::uint32_t index : lights.lights()) {
         const float samples = light_samples(plan, lights, position, normal, index);
         const auto n = static_cast<std::uint32_t>(samples);
+        if (n == 1 && lights.lights().size() == 1)
+            return ask_light(surface, index, 1, points_.light, random(kCoinStream));
         for (std::uint32_t i = 0; i < n; ++i) {
             const Sampler part = path_.sampler.split(kLightFamily + index, i, n);
             ask_light(surface, index, samples, part.at2(pair + 2), part.random(kCoinStream));
@@ -95,7 +98,8 @@ bool Integrator<Tracker>::leads_nowhere(const Channel& channel) const {
     if (channel.record->exit_to_background || channel.record->makes_no_event) return false;
     const std::span<const PathGroup> groups = path_.groups.all();
     return std::all_of(groups.begin(), groups.end(), [&](const PathGroup& g) {
-        return g.key.lights_only || scene_.depth_rules.next(g.key, *channel.record).lights_only;
+        return g.key.lights_only() ||
+               scene_.depth_rules.next(g.key, *channel.record).lights_only();
     });
 }
 
@@ -119,86 +123,137 @@ float Integrator<Tracker>::volume_rays(const Channel& channel) const {
 template <class Tracker>
 auto Integrator<Tracker>::sort_by_kind() -> std::array<KindSum, kGiKinds> {
     std::array<KindSum, kGiKinds> out{};
-    const std::size_t n_closures = closures_.closures().size();
-    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n_scatterers(); ++i) {
         const Channel& channel = channels_[channel_of_[i]];
-        kind_of_[i] = gi_kind(*channel.record, i < n_closures && closures_.delta(i));
         if (!(probability_[i] > 0)) continue;
         KindSum& sum = out[static_cast<std::size_t>(kind_of_[i])];
         sum.probability += probability_[i];
-        if (n > 1) sum.carries += reach_[channel_of_[i]] * albedo_of(i);
+        sum.carries += reach_[channel_of_[i]] * albedo_of(i);
         sum.channel = &channel;
         sum.goes_on = sum.goes_on || !leads_nowhere(channel);
     }
     return out;
 }
 
-/// Turns the scatterers' probabilities into numbers of rays.
+/// Lets the scatterers of each kind have rays of their own, if there are several of any kind.
+template <class Tracker>
+void Integrator<Tracker>::separate_kinds() {
+    const std::span<const Channel> channels(channels_.data(), n_channels_);
+    if (std::none_of(channels.begin(), channels.end(), [&](const Channel& channel) {
+            return scene_.settings.gi_samples.of(gi_kind(*channel.record, false)) > 1;
+        }))
+        return;
+    for (std::size_t c = 0; c < n_channels_; ++c)
+        if (mixture_[c] != kNoRays)
+            mixture_[c] = static_cast<std::uint8_t>(gi_kind(*channels_[c].record, false));
+}
+
+/// How many rays of a kind go on.
+///
+/// share    of what all scatterers carry, 0 to 1; largest_share: see the head of the file
+template <class Tracker>
+float Integrator<Tracker>::rays_of(GiKind kind, const Channel& channel, float share,
+                                   float largest_share) const {
+    const auto most = static_cast<float>(scene_.settings.gi_samples.of(kind));
+    switch (kind) {
+        case GiKind::Volume: return volume_rays(channel);
+        case GiKind::Mirror:
+        case GiKind::Clear:
+            // Behind mirrors as many as come: a hall of mirrors must not make ever more.
+            return path_.n_scatter > 0 ? most * share : most;
+        default: break;
+    }
+    const float rays = carried() * (share + (most - 1) * std::sqrt(largest_share));
+    return most > 0 ? std::max(kLeastRays, rays) : 0;
+}
+
+/// How many rays of each kind go on: on average, or in all where that is at least 1.
 template <class Tracker>
 auto Integrator<Tracker>::choose_ray_counts() -> RayCounts {
-    const std::array<KindSum, kGiKinds> sums = sort_by_kind();
-    float total = 0;
-    Color most_carried;
-    for (const KindSum& sum : sums) {
-        total += sum.probability;
-        for (int c = 0; c < 3; ++c)
-            most_carried[c] = std::max(most_carried[c], sum.carries[c]);
+    RayCounts out;
+    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0,
+                      n_closures = closures_.closures().size();
+    for (std::size_t i = 0; i < n; ++i)
+        kind_of_[i] =
+            gi_kind(*channels_[channel_of_[i]].record, i < n_closures && closures_.delta(i));
+    // Walks below the surface ask lights themselves.
+    if (n == 1 && probability_[0] > 0) {
+        const auto k = static_cast<std::size_t>(kind_of_[0]);
+        if (kind_of_[0] == GiKind::Subsurface || !leads_nowhere(channels_[0]))
+            out.rays[k] = rays_of(kind_of_[0], channels_[0], 1, 1);
+        out.round(points_.choice.x);
+        probability_[0] = out.rays[k];
+    } else if (n > 1) {
+        const std::array<KindSum, kGiKinds> sums = sort_by_kind();
+        separate_kinds();
+        float total = 0;
+        Color most_carried;
+        for (const KindSum& sum : sums) {
+            total += sum.probability;
+            for (int c = 0; c < 3; ++c)
+                most_carried[c] = std::max(most_carried[c], sum.carries[c]);
+        }
+        for (std::size_t k = 0; k < kGiKinds; ++k) {
+            const KindSum& sum = sums[k];
+            const auto kind = static_cast<GiKind>(k);
+            if (sum.probability > 0 && (sum.goes_on || kind == GiKind::Subsurface))
+                out.rays[k] = rays_of(kind, *sum.channel, sum.probability / total,
+                                      largest_share(sum.carries, most_carried));
+        }
+        out.round(points_.choice.x);
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto k = static_cast<std::size_t>(kind_of_[i]);
+            if (probability_[i] > 0) probability_[i] *= out.rays[k] / sums[k].probability;
+        }
     }
-    RayCounts rays{};
-    const float weight = carried();
+    return out;
+}
+
+/// Systematic rounding: one number decides for all kinds, so that parts of rays that add up to one make just one. Where there
+/// is at least one ray the kind is shared by those that there are, not by those that there are on average: their number
+/// then brings no noise.
+template <class Tracker>
+void Integrator<Tracker>::RayCounts::round(float u) {
+    double sum = static_cast<double>(u);
     for (std::size_t k = 0; k < kGiKinds; ++k) {
-        const KindSum& sum = sums[k];
-        const auto kind = static_cast<GiKind>(k);
-        // Walks below the surface ask lights themselves.
-        if (!(sum.probability > 0) || (!sum.goes_on && kind != GiKind::Subsurface)) continue;
-        const auto most = static_cast<float>(scene_.settings.gi_samples.of(kind));
-        const float share = sum.probability / total;
-        if (kind == GiKind::Volume)
-            rays[k] = volume_rays(*sum.channel);
-        else if (kind == GiKind::Mirror || kind == GiKind::Clear)
-            // Behind mirrors as many as come: a hall of mirrors must not make ever more.
-            rays[k] = path_.n_scatter > 0 ? most * share : most;
-        else if (most > 0)
-            rays[k] = std::max(kLeastRays,
-                               weight * (share + (most - 1) * std::sqrt(largest_share(
-                                                                  sum.carries, most_carried))));
+        if (!(rays[k] > 0)) continue;
+        const double average = static_cast<double>(rays[k]), part = sum - std::floor(sum);
+        n[k] = static_cast<std::uint32_t>(part + average);
+        sum += average;
+        total += n[k];
+        if (rays[k] >= 1) rays[k] = static_cast<float>(n[k]);
+        if (n[k] != 1) continue;
+        // What is known of `part` where it makes one ray, stretched to what that ray stands for.
+        last = k;
+        left = static_cast<float>(average <= 1 ? part + average - 1 : part / (2 - average));
     }
-    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto k = static_cast<std::size_t>(kind_of_[i]);
-        if (probability_[i] > 0) probability_[i] *= rays[k] / sums[k].probability;
-    }
-    return rays;
 }
 
 template <class Tracker>
 bool Integrator<Tracker>::fan_out(const Surface& surface, Ray& ray) {
-    const RayCounts rays = choose_ray_counts();
+    const RayCounts counted = choose_ray_counts();
     if (n_channels_ > 0 && !all_delta_) add_light_samples(surface);
     const bool straight = pass_probability_ > 0;
-    std::array<std::uint32_t, kGiKinds> n{};
-    // Systematic rounding: one number decides for all kinds, so that parts of rays that add up to one make just one.
-    std::uint32_t total = 0;
-    double sum = points_.choice.x;
-    for (std::size_t k = 0; k < kGiKinds; ++k) {
-        const auto before = static_cast<std::uint32_t>(sum);
-        sum += rays[k];
-        n[k] = static_cast<std::uint32_t>(sum) - before;
-        total += n[k];
+    if (counted.total == 1 && !straight) {
+        // The path does not split: it goes on by its own points. What rounding left over is evenly spread again.
+        const std::optional<std::size_t> drawn =
+            draw(counted.left, static_cast<GiKind>(counted.last));
+        return drawn && scatter(surface, *drawn, ray);
     }
-    if (total + (straight ? 1 : 0) > 1) {
-        before_.path = path_;
-        tracker_.save(before_.terms);
-    }
-    bool is_first = true;
+    if (counted.total > 0) split(surface, ray, counted);
+    if (!straight) return false;
+    pass_straight(surface, ray, 1);
+    return ray.t_max > 0;
+}
+
+/// Puts a path aside for each ray. The path stays as it is.
+template <class Tracker>
+void Integrator<Tracker>::split(const Surface& surface, const Ray& ray, const RayCounts& counted) {
+    const auto& [rays, n, total, last, left] = counted;
+    before_.path = path_;
+    tracker_.save(before_.terms);
     for (std::size_t k = 0; k < kGiKinds; ++k)
         for (std::uint32_t i = 0; i < n[k]; ++i) {
-            if (!is_first) {
-                path_ = before_.path;
-                tracker_.restore(before_.terms);
-            }
-            is_first = false;
             path_.sampler =
                 path_.sampler.split(kKindFamily + static_cast<std::uint32_t>(k), i, n[k]);
             path_.siblings *= std::max(rays[k], 1.0F);
@@ -208,22 +263,13 @@ bool Integrator<Tracker>::fan_out(const Surface& surface, Ray& ray) {
             Ray next = ray;
             const std::optional<std::size_t> drawn =
                 draw(points_.choice.x * rays[k], static_cast<GiKind>(k));
-            const bool goes_on = drawn && scatter(surface, *drawn, next);
-            if (total == 1 && !straight) {
-                ray = next;
-                return goes_on;
+            if (drawn && scatter(surface, *drawn, next)) {
+                ++path_.segment;
+                put_aside(next);
             }
-            if (!goes_on) continue;
-            ++path_.segment;
-            put_aside(next);
+            path_ = before_.path;
+            tracker_.restore(before_.terms);
         }
-    if (!straight) return false;
-    if (!is_first) {
-        path_ = before_.path;
-        tracker_.restore(before_.terms);
-    }
-    pass_straight(surface, ray, 1);
-    return ray.t_max > 0;
 }
 
 template <class Tracker>
@@ -245,8 +291,12 @@ void Integrator<Tracker>::put_aside(const Ray& ray) {
     template float Integrator<Tracker>::carried() const;                                         \
     template float Integrator<Tracker>::volume_rays(const Channel&) const;                       \
     template auto Integrator<Tracker>::sort_by_kind() -> std::array<KindSum, kGiKinds>;          \
+    template void Integrator<Tracker>::separate_kinds();                                         \
     template auto Integrator<Tracker>::choose_ray_counts() -> RayCounts;                         \
+    template float Integrator<Tracker>::rays_of(GiKind, const Channel&, float, float) const;     \
     template bool Integrator<Tracker>::fan_out(const Surface&, Ray&);                            \
+    template void Integrator<Tracker>::RayCounts::round(float);                                  \
+    template void Integrator<Tracker>::split(const Surface&, const Ray&, const RayCounts&);      \
     template void Integrator<Tracker>::put_aside(const Ray&);
 LIGHTSIEVE_FAN(AovTracker)
 LIGHTSIEVE_FAN(LogTracker)

@@ -13,19 +13,38 @@ namespace {
 /// Light samples of little effect are traced at least this often.
 constexpr float kLeastSurvival = 0.05F;
 
+/// No light leaks through: both normals must agree on which side of the surface wi leaves.
+bool sides_agree(const Surface& surface, Vec3f wi) {
+    return (dot(wi, surface.outward) > 0) == (dot(wi, surface.at.normal) > 0);
+}
+
 }  // namespace
 
 template <class Tracker>
-float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi,
+auto Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi,
+                                   std::span<Color> by_channel) const -> Densities {
+    const bool agree = sides_agree(surface, wi);
+    const std::span<const Closure> closures = closures_.closures();
+    Densities pdf{};
+    for (std::size_t i = 0; i < closures.size(); ++i) {
+        const LobeEval eval = closures_.eval(i, wi);
+        pdf[mixture_[channel_of_[i]]] += probability_[i] * eval.pdf;
+        if (agree || has_no_sides(closures[i].model)) by_channel[channel_of_[i]] += eval.f;
+    }
+    return pdf;
+}
+
+template <class Tracker>
+float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi, std::uint8_t mixture,
                                     std::span<Color> by_channel) const {
-    // No light leaks through: both normals must agree on which side of the surface wi leaves.
-    const bool sides_agree = (dot(wi, surface.outward) > 0) == (dot(wi, surface.at.normal) > 0);
+    const bool agree = sides_agree(surface, wi);
     const std::span<const Closure> closures = closures_.closures();
     float pdf = 0;
     for (std::size_t i = 0; i < closures.size(); ++i) {
+        if (mixture_[channel_of_[i]] != mixture) continue;
         const LobeEval eval = closures_.eval(i, wi);
         pdf += probability_[i] * eval.pdf;
-        if (sides_agree || has_no_sides(closures[i].model)) by_channel[channel_of_[i]] += eval.f;
+        if (agree || has_no_sides(closures[i].model)) by_channel[channel_of_[i]] += eval.f;
     }
     return pdf;
 }
@@ -51,33 +70,38 @@ void Integrator<Tracker>::ask_light(const Surface& surface, std::uint32_t index,
         surface.at.position, light.samples_only ? Vec3f{} : facing(surface), u);
     if (!(sample.pdf > 0) || is_black(sample.radiance)) return;
     const std::span<Color> value = cleared_values();
-    const float pdf_lobes = evaluate(surface, sample.wi, value);
+    const Densities pdf_rays = evaluate(surface, sample.wi, value);
     if (std::all_of(value.begin(), value.end(), is_black)) return;
 
     // Without a way to meet the light by a ray the light sample stands alone.
     const SceneObject& object = *surface.object;
-    const bool samples_only = light.samples_only || object.tampers_with_shadows();
+    const bool alone = sample.delta || light.samples_only || object.tampers_with_shadows();
     const float pdf_light = samples * sample.pdf;
-    float weight = sample.delta || samples_only ? 1 : power_heuristic(pdf_light, pdf_lobes);
-    if (surface.in_medium && vertex_part_ && !light.light->infinite())
-        weight *= share_of_collisions(vertex_ray_, *vertex_part_, surface.t, index, samples);
+    const float part =
+        surface.in_medium && vertex_part_ && !light.light->infinite()
+            ? share_of_collisions(vertex_ray_, *vertex_part_, surface.t, index, samples)
+            : 1;
+    std::array<float, kMaxChannels> weights;
+    for (std::size_t c = 0; c < n_channels_; ++c)
+        weights[c] = alone ? part : part * power_heuristic(pdf_light, pdf_rays[mixture_[c]]);
     const float kept =
-        low_light_survival(value, light, sample.radiance * (weight * samples / pdf_light));
+        low_light_survival(value, weights, light, sample.radiance * (1 / sample.pdf));
     if (kept < 1 && coin >= kept) return;
     const Visibility visible = visibility(surface, index, sample);
     if (is_black(visible.tinted)) return;
     // What came through glass has no twin among the rays (diffuse rays end at glass), so its light sample stands alone.
     const Color arriving =
         sample.radiance * color_of_wavelength(surface, sample.wi) * (1 / (pdf_light * kept));
-    const Color to_specular = arriving * visible.straight * weight;
-    const Color to_diffuse = to_specular + arriving * (visible.tinted - visible.straight);
+    const Color straight = arriving * visible.straight,
+                tinted = arriving * (visible.tinted - visible.straight);
     deposit_scattered_light(light, [&](std::size_t g, std::size_t c) {
         const GroupKey& key = path_.groups[g].key;
-        if (key.lights_only || !channel_allowed(key, channels_[c]) || !channels_[c].direct_light)
+        if (key.lights_only() || !channel_allowed(key, channels_[c]) || !channels_[c].direct_light)
             return kBlack;
         const LobeRecord& record = *channels_[c].record;
         // Rays that volumes scatter may be refracted, as specular ones: their twins exist.
-        const Color incident = record.lobe == EventLobe::Diffuse ? to_diffuse : to_specular;
+        Color incident = straight * weights[c];
+        if (record.lobe == EventLobe::Diffuse) incident += tinted;
         return value[c] * incident *
                light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface),
                             path_.n_scatter + 1);
@@ -87,20 +111,20 @@ void Integrator<Tracker>::ask_light(const Surface& surface, std::uint32_t index,
 /// low_light_threshold: how likely a light sample that brings less than the threshold is worth its shadow ray.
 template <class Tracker>
 float Integrator<Tracker>::low_light_survival(std::span<const Color> by_channel,
+                                              std::span<const float> weights,
                                               const SceneLight& light, Color incident) const {
     const float threshold = scene_.settings.low_light_threshold;
     if (!(threshold > 0)) return 1;
     Color brought;
     for (const PathGroup& group : path_.groups.all())
         for (std::size_t c = 0; c < n_channels_; ++c) {
-            if (group.key.lights_only || !channel_allowed(group.key, channels_[c]) ||
+            if (group.key.lights_only() || !channel_allowed(group.key, channels_[c]) ||
                 !channels_[c].direct_light)
                 continue;
             const LobeRecord& record = *channels_[c].record;
+            const RayType type = ray_type_of(record.kind, record.lobe, record.subsurface);
             brought += group.throughput * by_channel[c] * incident *
-                       light_factor(light.common,
-                                    ray_type_of(record.kind, record.lobe, record.subsurface),
-                                    path_.n_scatter + 1);
+                       (weights[c] * light_factor(light.common, type, path_.n_scatter + 1));
         }
     const float brightest = max_component(brought);
     return brightest < threshold ? std::max(brightest / threshold, kLeastSurvival) : 1;
@@ -208,22 +232,25 @@ void Integrator<Tracker>::add_light_at_exit(const WalkExit& exit) {
     deposit(terminal, [&](std::size_t g) {
         if (!path_.groups.direct_light(g)) return kBlack;
         return arriving *
-               light_factor(light.common, path_.groups[g].key.ray_type, path_.n_scatter);
+               light_factor(light.common, path_.groups[g].key.ray_type(), path_.n_scatter);
     });
 }
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
-#define LIGHTSIEVE_LIGHTS(Tracker)                                                               \
-    template float Integrator<Tracker>::evaluate(const Surface&, Vec3f, std::span<Color>) const; \
-    template void Integrator<Tracker>::add_light_samples(const Surface&);                        \
-    template void Integrator<Tracker>::ask_light(const Surface&, std::uint32_t, float, Vec2f,    \
-                                                 float);                                         \
-    template float Integrator<Tracker>::low_light_survival(std::span<const Color>,               \
-                                                           const SceneLight&, Color) const;      \
-    template auto Integrator<Tracker>::visibility(const Surface&, std::uint32_t,                 \
-                                                  const LightSample&) -> Visibility;             \
-    template auto Integrator<Tracker>::visibility_along(Ray, const SceneObject*, std::uint32_t)  \
-        -> Visibility;                                                                           \
+#define LIGHTSIEVE_LIGHTS(Tracker)                                                              \
+    template auto Integrator<Tracker>::evaluate(const Surface&, Vec3f, std::span<Color>) const  \
+        -> Densities;                                                                           \
+    template float Integrator<Tracker>::evaluate(const Surface&, Vec3f, std::uint8_t,           \
+                                                 std::span<Color>) const;                       \
+    template void Integrator<Tracker>::add_light_samples(const Surface&);                       \
+    template void Integrator<Tracker>::ask_light(const Surface&, std::uint32_t, float, Vec2f,   \
+                                                 float);                                        \
+    template float Integrator<Tracker>::low_light_survival(                                     \
+        std::span<const Color>, std::span<const float>, const SceneLight&, Color) const;        \
+    template auto Integrator<Tracker>::visibility(const Surface&, std::uint32_t,                \
+                                                  const LightSample&) -> Visibility;            \
+    template auto Integrator<Tracker>::visibility_along(Ray, const SceneObject*, std::uint32_t) \
+        -> Visibility;                                                                          \
     template void Integrator<Tracker>::add_light_at_exit(const WalkExit&);
 LIGHTSIEVE_LIGHTS(AovTracker)
 LIGHTSIEVE_LIGHTS(LogTracker)

@@ -69,7 +69,7 @@ auto Integrator<Tracker>::collide(const Ray& ray, const Collision& collision) ->
     const Vec3f position = ray.origin + ray.direction * collision.t;
     if (collision.volume != nullptr) {
         look_into(*collision.volume, position, -ray.direction, ray.time,
-                  path_.groups[0].key.ray_type, closures_);
+                  path_.groups[0].key.ray_type(), closures_);
         open_slot(position);
         // Emission on a way of mean length 1 / bound.
         add_emission(1 / collision.majorant);
@@ -123,7 +123,7 @@ void Integrator<Tracker>::make_vertex(const Ray& ray, const Collision& collision
     at.t = collision.t;
     at.at.position = ray.origin + ray.direction * collision.t;
     at.at.wo = at.at.normal = at.at.geometric_normal = at.outward = -ray.direction;
-    at.at.ray_type = path_.groups[0].key.ray_type;
+    at.at.ray_type = path_.groups[0].key.ray_type();
     at.at.time = ray.time;
     at.frame = Frame::from_z(-ray.direction);
 }

@@ -27,13 +27,6 @@ void widen(Footprint& footprint, float pdf, int n_samples) {
 
 }  // namespace
 
-/// GI_*_samples 0 switches a kind of scattering off.
-template <class Tracker>
-bool Integrator<Tracker>::is_enabled(std::size_t scatterer) const {
-    return scene_.settings.gi_samples.of(
-               gi_kind(*channels_[channel_of_[scatterer]].record, false)) > 0;
-}
-
 /// How likely each closure, or passing straight through, is drawn: by what it can carry on.
 template <class Tracker>
 void Integrator<Tracker>::choose_probabilities() {
@@ -41,9 +34,10 @@ void Integrator<Tracker>::choose_probabilities() {
     const std::span<Color> reach(reach_.data(), n_channels_);
     std::ranges::fill(reach, kBlack);
     for (std::size_t c = 0; c < n_channels_; ++c) {
+        mixture_[c] = is_enabled(channels_[c]) ? 0 : kNoRays;
         if (scene_.culling == Culling::Lobes && !tracker_.goes_on(channels_[c])) continue;
         for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
-            if (!path_.groups[g].key.lights_only &&
+            if (!path_.groups[g].key.lights_only() &&
                 channel_allowed(path_.groups[g].key, channels_[c]))
                 reach[c] += path_.groups[g].throughput * path_.groups.indirect(g);
     }
@@ -98,7 +92,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
     const LobeSample sample = closures_.sample(drawn, points_.direction, u_choice);
     if (!(sample.pdf > 0)) return false;
 
-    // What each channel carries into that direction, over the density of the mixture.
+    // What each channel of the mixture carries into that direction, over its density.
     const std::span<Color> factors = cleared_values();
     const bool delta = closures_.delta(drawn);
     float pdf = 0;
@@ -107,7 +101,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
             return false;
         factors[channel_of_[drawn]] = sample.f * (1 / probability_[drawn]);
     } else {
-        pdf = evaluate(surface, sample.wi, factors);
+        pdf = evaluate(surface, sample.wi, mixture_[channel_of_[drawn]], factors);
         if (!(pdf > 0)) return false;
         for (std::size_t c = 0; c < n_channels_; ++c)
             factors[c] *= 1 / pdf;
@@ -178,7 +172,8 @@ void Integrator<Tracker>::see_past(std::span<const Color> factors) {
     for (std::size_t c = 0; c < n_channels_; ++c) {
         if (!channels_[c].record->makes_no_event || is_black(factors[c])) continue;
         for (const PathGroup& g : path_.groups.all()) {
-            if (!g.key.seen || !scene_.depth_rules.next(g.key, *channels_[c].record).lights_only)
+            if (!g.key.seen() ||
+                !scene_.depth_rules.next(g.key, *channels_[c].record).lights_only())
                 continue;
             out_->add_alpha(average(path_.passed), path_.passed);
             path_.passed = kBlack;
@@ -207,8 +202,8 @@ bool Integrator<Tracker>::advance(std::span<const Color> factors,
     if (is_black(path_.groups.total())) return false;
     if (!survives_roulette()) return false;
     const std::span<const PathGroup> groups = path_.groups.all();
-    path_.exit_pending =
-        std::any_of(groups.begin(), groups.end(), [](const PathGroup& g) { return g.key.exits; });
+    path_.exit_pending = std::any_of(groups.begin(), groups.end(),
+                                     [](const PathGroup& g) { return g.key.exits(); });
     return true;
 }
 
@@ -218,7 +213,7 @@ bool Integrator<Tracker>::is_worth_a_ray() const {
     const std::span<const PathGroup> groups = path_.groups.all();
     return scene_.lights_can_be_met || path_.exit_pending ||
            !std::all_of(groups.begin(), groups.end(),
-                        [](const PathGroup& g) { return g.key.lights_only; });
+                        [](const PathGroup& g) { return g.key.lights_only(); });
 }
 
 template <class Tracker>
@@ -274,7 +269,6 @@ bool Integrator<Tracker>::survives_roulette() {
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
 #define LIGHTSIEVE_SCATTER(Tracker)                                                             \
-    template bool Integrator<Tracker>::is_enabled(std::size_t) const;                           \
     template void Integrator<Tracker>::choose_probabilities();                                  \
     template std::optional<std::size_t> Integrator<Tracker>::draw(float, std::optional<GiKind>) \
         const;                                                                                  \

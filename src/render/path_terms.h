@@ -15,7 +15,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -33,24 +32,57 @@ struct DepthLimits {
     std::uint8_t diffuse = 0, specular = 0, transmission = 2, volume = 0, total = 10;
 };
 
-/// Depth counters and last ray type of a share of a path.
-/// Eight bytes that are copied and compared as one word.
-struct alignas(8) GroupKey {
-    std::uint8_t diffuse = 0, specular = 0, transmission = 0, volume = 0;
-    std::uint8_t forgotten =
-        0;  ///< bounces of which only the number still matters, see DepthRules
-    RayType ray_type = RayType::Camera;
-    bool lights_only : 1 =
-        false;  ///< past a depth limit: the ray may still meet lights, everything else is black
-    bool exits : 1 = false;         ///< past a depth limit, and the shader says exit_to_background
-    bool seen : 1 = true;           ///< no event yet: the camera sees what the ray meets
-    std::uint8_t indirect : 5 = 0;  ///< factor on what the ray meets but lights, see PathGroups
-    friend bool operator==(const GroupKey& a, const GroupKey& b) {
-        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+/// Depth counters and last ray type of a share of a path, packed into one word: keys are made, compared and copied for
+/// every share at every vertex, and bytes that are read back as a word would wait for each other.
+class GroupKey {
+  public:
+    /// What is counted: bounces by kind, and those of which only the number still matters, see DepthRules.
+    enum class Count : std::uint8_t { Diffuse, Specular, Transmission, Volume, Forgotten };
+
+    [[nodiscard]] constexpr int count(Count of) const { return byte(shift_of(of)); }
+    [[nodiscard]] constexpr int total() const {
+        int sum = 0;
+        for (unsigned shift = 0; shift < kRayTypeShift; shift += 8)
+            sum += byte(shift);
+        return sum;
     }
-    [[nodiscard]] int total() const {
-        return diffuse + specular + transmission + volume + forgotten;
+    [[nodiscard]] constexpr RayType ray_type() const {
+        return static_cast<RayType>(byte(kRayTypeShift));
     }
+    /// Past a depth limit: the ray may still meet lights, everything else is black.
+    [[nodiscard]] constexpr bool lights_only() const { return (word_ & kLightsOnly) != 0; }
+    /// Past a depth limit, and the shader says exit_to_background.
+    [[nodiscard]] constexpr bool exits() const { return (word_ & kExits) != 0; }
+    /// No event yet: the camera sees what the ray meets.
+    [[nodiscard]] constexpr bool seen() const { return (word_ & kUnseen) == 0; }
+    /// Factor on what the ray meets but lights, see PathGroups.
+    [[nodiscard]] constexpr std::size_t indirect() const { return byte(kIndirectShift); }
+
+    constexpr void add(Count to, int n) { word_ += static_cast<std::uint64_t>(n) << shift_of(to); }
+    constexpr void clear(Count of) { word_ &= ~(kByte << shift_of(of)); }
+    constexpr void set_ray_type(RayType type) {
+        word_ = (word_ & ~(kByte << kRayTypeShift)) | static_cast<std::uint64_t>(type)
+                                                          << kRayTypeShift;
+    }
+    constexpr void set_lights_only(bool on) { set(kLightsOnly, on); }
+    constexpr void set_exits(bool on) { set(kExits, on); }
+    constexpr void set_seen(bool on) { set(kUnseen, !on); }
+    constexpr void set_indirect(std::uint8_t index) {
+        word_ = (word_ & ~(kByte << kIndirectShift)) | std::uint64_t{index} << kIndirectShift;
+    }
+    friend constexpr bool operator==(GroupKey, GroupKey) = default;
+
+  private:
+    static constexpr std::uint64_t kByte = 255, kLightsOnly = 1ULL << 48U, kExits = 1ULL << 49U,
+                                   kUnseen = 1ULL << 50U;
+    static constexpr unsigned kRayTypeShift = 40, kIndirectShift = 56;
+    static constexpr unsigned shift_of(Count count) { return 8 * static_cast<unsigned>(count); }
+    [[nodiscard]] constexpr std::uint8_t byte(unsigned shift) const {
+        return static_cast<std::uint8_t>(word_ >> shift);
+    }
+    constexpr void set(std::uint64_t bit, bool on) { word_ = on ? word_ | bit : word_ & ~bit; }
+
+    std::uint64_t word_ = static_cast<std::uint64_t>(RayType::Camera) << kRayTypeShift;
 };
 
 /// The ray that leaves a vertex through a lobe.
@@ -93,44 +125,44 @@ class DepthRules {
         // Which counter an event uses: RD and TD diffuse, RS specular, TS transmission, V volume. The others are within
         // their limits, or within what a shader with extra_depth added to them.
         const RayType type = ray_type_of(through.kind, through.lobe, through.subsurface);
-        const auto [counter, limit] = [&]() -> std::pair<std::uint8_t*, int> {
+        const auto [counter, limit] = [&]() -> std::pair<GroupKey::Count, int> {
             switch (type) {
-                case RayType::Volume: return {&key.volume, limits_.volume};
-                case RayType::SpecularTransmit: return {&key.transmission, limits_.transmission};
-                case RayType::SpecularReflect: return {&key.specular, limits_.specular};
-                default: return {&key.diffuse, limits_.diffuse};
+                case RayType::Volume: return {GroupKey::Count::Volume, limits_.volume};
+                case RayType::SpecularTransmit:
+                    return {GroupKey::Count::Transmission, limits_.transmission};
+                case RayType::SpecularReflect:
+                    return {GroupKey::Count::Specular, limits_.specular};
+                default: return {GroupKey::Count::Diffuse, limits_.diffuse};
             }
         }();
-        ++*counter;
-        key.lights_only = *counter > limit + through.extra_depth || key.total() > limits_.total;
-        key.exits = key.lights_only && through.exit_to_background;
-        key.seen = key.seen && through.makes_no_event;
-        key.ray_type =
-            type_matters_[static_cast<std::size_t>(type)] ? type : RayType::SpecularReflect;
-        return canonical(key);
+        key.add(counter, 1);
+        const int total = key.total();
+        const bool lights_only =
+            key.count(counter) > limit + through.extra_depth || total > limits_.total;
+        key.set_lights_only(lights_only);
+        key.set_exits(lights_only && through.exit_to_background);
+        key.set_seen(key.seen() && through.makes_no_event);
+        key.set_ray_type(type_matters_[static_cast<std::size_t>(type)] ? type
+                                                                       : RayType::SpecularReflect);
+        return canonical(key, total);
     }
 
   private:
     /// Forgets the counts of kinds whose limit can no longer bind before the total does, so that equal futures are equal keys.
     /// A kind that is free once stays so: each event takes at most one from its limit and exactly one from the total's rest.
-    [[nodiscard]] GroupKey canonical(GroupKey key) const {
-        const int total = key.total();
-        if (key.lights_only) {
-            // Only the number of bounces still matters (indirect multipliers, max_bounces), not their kinds.
-            key.diffuse = key.specular = key.transmission = key.volume = 0;
-            key.forgotten = static_cast<std::uint8_t>(total);
-            return key;
-        }
+    [[nodiscard]] GroupKey canonical(GroupKey key, int total) const {
         const int left = limits_.total - total;
-        const auto forget = [&](std::uint8_t& used, int limit) {
-            if (limit - used < left) return;
-            key.forgotten = static_cast<std::uint8_t>(key.forgotten + used);
-            used = 0;
+        const auto forget = [&](GroupKey::Count kind, int limit) {
+            const int used = key.count(kind);
+            // Past the limits only the number of bounces still matters (indirect multipliers, max_bounces).
+            if (!key.lights_only() && limit - used < left) return;
+            key.add(GroupKey::Count::Forgotten, used);
+            key.clear(kind);
         };
-        forget(key.diffuse, limits_.diffuse);
-        forget(key.specular, limits_.specular);
-        forget(key.transmission, limits_.transmission);
-        forget(key.volume, limits_.volume);
+        forget(GroupKey::Count::Diffuse, limits_.diffuse);
+        forget(GroupKey::Count::Specular, limits_.specular);
+        forget(GroupKey::Count::Transmission, limits_.transmission);
+        forget(GroupKey::Count::Volume, limits_.volume);
         return key;
     }
 
@@ -147,9 +179,9 @@ struct PathGroup {
 
 /// True if light through this channel exists for a share that arrived with this key: Arnold's `caustics` switch.
 [[nodiscard]] inline bool channel_allowed(const GroupKey& key, const Channel& channel) {
-    const bool diffuse_ray = key.ray_type == RayType::DiffuseReflect ||
-                             key.ray_type == RayType::DiffuseTransmit ||
-                             key.ray_type == RayType::Subsurface;
+    const bool diffuse_ray = key.ray_type() == RayType::DiffuseReflect ||
+                             key.ray_type() == RayType::DiffuseTransmit ||
+                             key.ray_type() == RayType::Subsurface;
     return channel.caustics || channel.record->lobe != EventLobe::Specular || !diffuse_ray;
 }
 
@@ -172,11 +204,11 @@ class PathGroups {
     [[nodiscard]] const PathGroup& operator[](std::size_t i) const { return groups_[i]; }
     /// Factor on what group `i` brings from anything but lights, and on all that it scatters.
     [[nodiscard]] float indirect(std::size_t i) const {
-        return factors_[current_][groups_[i].key.indirect].indirect;
+        return factors_[current_][groups_[i].key.indirect()].indirect;
     }
     /// Whether lights that the ray of group `i` meets count.
     [[nodiscard]] bool direct_light(std::size_t i) const {
-        return factors_[current_][groups_[i].key.indirect].direct_light;
+        return factors_[current_][groups_[i].key.indirect()].direct_light;
     }
     [[nodiscard]] Color total() const {
         Color sum;
@@ -222,13 +254,13 @@ class PathGroups {
         for (std::size_t g = 0; g < n_; ++g)
             for (std::size_t c = 0; c < channels.size(); ++c) {
                 step.to[g][c] = kNone;
-                const float scale = waiting[groups_[g].key.indirect].indirect;
+                const float scale = waiting[groups_[g].key.indirect()].indirect;
                 step.scale[g][c] = scale;
-                if (groups_[g].key.lights_only || is_black(factors[c]) || scale == 0 ||
+                if (groups_[g].key.lights_only() || is_black(factors[c]) || scale == 0 ||
                     !channel_allowed(groups_[g].key, channels[c]))
                     continue;
                 GroupKey key = rules.next(groups_[g].key, *channels[c].record);
-                key.indirect = factor_of[c] & 31U;
+                key.set_indirect(factor_of[c]);
                 std::size_t i = 0;
                 while (i < n && !(candidates[i].key == key))
                     ++i;
@@ -249,7 +281,7 @@ class PathGroups {
   private:
     static constexpr std::size_t kMaxCandidates = kMaxGroups * kMaxChannels;
     static_assert(kMaxCandidates < kNone);
-    /// Different factors at one vertex; as many as GroupKey::indirect can tell apart.
+    /// Different factors at one vertex.
     static constexpr std::size_t kMaxFactors = 32;
     static_assert(kMaxChannels < kMaxFactors);
 

@@ -141,16 +141,16 @@ TEST(DepthRules, AgreeWithPlainCountersOnEverySequence) {
             GroupKey key;
             PlainCounters plain;
             std::string path;
-            while (!key.lights_only) {
+            while (!key.lights_only()) {
                 const LobeRecord& through = kRecords[random() % kRecords.size()];
                 path += "DSdsV"[through.event];
                 key = rules.next(key, through);
                 plain.count(through);
-                ASSERT_EQ(key.lights_only, plain.past(limit))
+                ASSERT_EQ(key.lights_only(), plain.past(limit))
                     << path << " with limits " << int{limit.diffuse} << ' ' << int{limit.specular}
                     << ' ' << int{limit.transmission} << ' ' << int{limit.volume} << ' '
                     << int{limit.total};
-                ASSERT_EQ(key.ray_type, ray_type_of(through.kind, through.lobe, false)) << path;
+                ASSERT_EQ(key.ray_type(), ray_type_of(through.kind, through.lobe, false)) << path;
             }
         }
     }
@@ -177,20 +177,20 @@ TEST(DepthRules, ExtraDepthBelongsToTheShaderThatHasIt) {
     GroupKey key;
     for (int i = 0; i < 4; ++i) {
         key = rules.next(key, hair);
-        EXPECT_FALSE(key.lights_only) << i;
+        EXPECT_FALSE(key.lights_only()) << i;
     }
     // Another shader has the plain limit, but lobes of other kinds go on.
-    EXPECT_TRUE(rules.next(key, kRecords[1]).lights_only);
-    EXPECT_FALSE(rules.next(key, kRecords[0]).lights_only);
-    EXPECT_TRUE(rules.next(key, hair).lights_only);
+    EXPECT_TRUE(rules.next(key, kRecords[1]).lights_only());
+    EXPECT_FALSE(rules.next(key, kRecords[0]).lights_only());
+    EXPECT_TRUE(rules.next(key, hair).lights_only());
 }
 
 TEST(DepthRules, TypesThatNothingTellsApartAreOne) {
     std::array<bool, 8> matters{};
     matters[static_cast<std::size_t>(RayType::DiffuseReflect)] = true;
     const DepthRules rules({2, 2, 2, 2, 8}, matters);
-    EXPECT_EQ(rules.next({}, kRecords[0]).ray_type, RayType::DiffuseReflect);
-    EXPECT_EQ(rules.next({}, kRecords[3]).ray_type, rules.next({}, kRecords[1]).ray_type);
+    EXPECT_EQ(rules.next({}, kRecords[0]).ray_type(), RayType::DiffuseReflect);
+    EXPECT_EQ(rules.next({}, kRecords[3]).ray_type(), rules.next({}, kRecords[1]).ray_type());
 }
 
 // Groups and terms -----------------------------------------------------------------------------------------------------
@@ -233,7 +233,7 @@ TEST(PathTerms, FollowTheGroupsAndStayUnbiasedWhenTheyAreJoined) {
     const std::function<void(int, GroupKey, std::uint32_t, Color)> walk =
         [&](int left, GroupKey key, std::uint32_t state, Color throughput) {
             if (left == 0) return add_to(truth, state, throughput, 1);
-            if (key.lights_only) return;
+            if (key.lights_only()) return;
             for (std::size_t c = 0; c < kFactors.size(); ++c)
                 walk(left - 1, rules.next(key, kRecords[c]),
                      CountingMachine::step(state, kRecords[c]), throughput * kFactors[c]);
@@ -308,13 +308,13 @@ TEST(PathGroups, CausticsOffLeavesSpecularLobesDarkForDiffuseRays) {
     const Channel with{&kRecords[1], true}, without{&kRecords[1], false},
         diffuse{&kRecords[0], false};
     GroupKey key;
-    key.ray_type = RayType::DiffuseReflect;
+    key.set_ray_type(RayType::DiffuseReflect);
     EXPECT_TRUE(channel_allowed(key, with));
     EXPECT_FALSE(channel_allowed(key, without));
     EXPECT_TRUE(channel_allowed(key, diffuse));
-    key.ray_type = RayType::SpecularReflect;
+    key.set_ray_type(RayType::SpecularReflect);
     EXPECT_TRUE(channel_allowed(key, without));
-    key.ray_type = RayType::Camera;
+    key.set_ray_type(RayType::Camera);
     EXPECT_TRUE(channel_allowed(key, without));
 }
 

@@ -29,8 +29,10 @@ struct RayState {
     Vec2f screen;               ///< [-1,1], y up
     Vec2f subpixel;             ///< [0,1] within the pixel
     std::uint32_t sample = 0;   ///< number of the sample within the pixel
-    std::uint32_t seed = 0;     ///< another for each hit: random numbers of shaders start from it
-    std::int32_t bounces = 0;   ///< scattering events so far, of each kind below
+    /// Where shaders' random numbers come from: others for each segment of the path. Null: the same everywhere.
+    const Sampler* sampler = nullptr;
+    std::uint32_t segment = 0;
+    std::int32_t bounces = 0;  ///< scattering events so far, of each kind below
     std::int32_t diffuse = 0, specular = 0, transmission = 0, volume = 0, transparent = 0;
     const Mat4f* camera_from_world = nullptr;  ///< of the sample's camera at its time
     /// By the numbers of NodeContext::written_aov; null where the camera does not look.
@@ -104,7 +106,12 @@ class ShadeServices {
 /// A random number in [0,1) for a shader's own use: the same for the same sample, hit, stream and index.
 [[nodiscard]] inline float shader_random(const ShadePoint& at, std::uint32_t stream,
                                          std::uint32_t index) {
-    const std::uint32_t seed = at.ray != nullptr ? at.ray->seed : 0;
+    // Apart from the path's own streams, which are small numbers.
+    constexpr std::uint32_t kShaderStream = 64;
+    std::uint32_t seed = 0;
+    if (at.ray != nullptr && at.ray->sampler != nullptr)
+        seed = static_cast<std::uint32_t>(
+            at.ray->sampler->random(hash_combine(at.ray->segment, kShaderStream)) * 0x1p24F);
     return unit_float(hash_combine(hash_combine(seed, stream), index));
 }
 

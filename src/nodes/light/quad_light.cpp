@@ -59,12 +59,13 @@ class RectangleSource final : public Light {
                 static_cast<std::size_t>(std::clamp(resolution, kMinResolution, kMaxResolution)));
     }
 
-    [[nodiscard]] LightSample sample(Vec3f from, Vec2f u) const override {
+    // In one piece: small structs of floats are slow to hand from call to call.
+    [[nodiscard, gnu::flatten]] LightSample sample(Vec3f from, Vec2f u) const override {
         if (profile_.spread.is_wide()) return sample_of(rectangle_, from, u);
         const std::optional<Part> part = lit_part(from);
         return part ? sample_of(part->rectangle, from, u) : LightSample{};
     }
-    [[nodiscard]] LightEval hit(Vec3f from, const LightHit& at) const override {
+    [[nodiscard, gnu::flatten]] LightEval hit(Vec3f from, const LightHit& at) const override {
         if (profile_.spread.is_wide())
             return eval_of(RectangleView(rectangle_, from), from, at.position, at.uv, at.uv);
         const std::optional<Part> part = lit_part(from);
