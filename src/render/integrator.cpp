@@ -118,7 +118,7 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
         lights_only_ = std::all_of(path_.groups.all().begin(), path_.groups.all().end(),
                                    [](const PathGroup& g) { return g.key.lights_only(); });
         RayHit hit;
-        ++counts.rays_of(ray_kind_of(path_.groups[0].key.ray_type));
+        ++counts.rays_of(ray_kind_of(path_.groups[0].key.ray_type()));
         const bool met = scene_.accel->intersect(ray, ray_mask(), hit);
         begin_media(ray, met ? hit.t : ray.t_max);
         if (by_shadow_rays() && path_.segment == path_.last.next_segment) {
