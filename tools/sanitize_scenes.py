@@ -5,7 +5,8 @@ tools/sanitize_scenes.py FOLDER [--sanitized TOOL] [--release TOOL]
 
 Each scene is checked, rendered with two threads into a small picture (both with leak detection), and rendered as it
 is with one sample a pixel. Of the last the peak memory is compared with the release build's: leak detection, which
-takes memory of its own at the end, is off there, and freed memory is kept for detection up to 8 MB.
+takes memory of its own at the end, is off there; freed memory is kept for detection up to 1 MB and call stacks two
+calls deep: neither is the program's.
 
 Both programs are lightsieve_tool: `cmake --preset sanitize && cmake --build --preset sanitize --target lightsieve_tool`,
 and the same with `cpp` for `sanitize`. Files that other files include or read are found by having no outputs: they are
@@ -26,7 +27,8 @@ FINDING = re.compile(r"Sanitizer|runtime error:|terminate called")
 # OpenImageIO 2.4 frees its texture system with the size of its base class.
 COMMON = "new_delete_type_mismatch=0:exitcode=99"
 WITH_LEAKS = f"{COMMON}:detect_leaks=1"
-FOR_MEMORY = f"{COMMON}:detect_leaks=0:quarantine_size_mb=8"
+LITTLE = "quarantine_size_mb=1:thread_local_quarantine_size_kb=64:malloc_context_size=2"
+FOR_MEMORY = f"{COMMON}:detect_leaks=0:{LITTLE}"
 SUPPRESSIONS = f"suppressions={ROOT}/tests/hostile/leaks.txt:print_suppressions=0"
 MOST = 2.0
 

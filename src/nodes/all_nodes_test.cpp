@@ -68,6 +68,7 @@ TEST_P(EveryNode, HasTheFunctionsOfItsKind) {
     EXPECT_EQ(t.kind == NodeKind::Light, t.light_common != nullptr);
     EXPECT_EQ(t.kind == NodeKind::Filter, t.make_filter != nullptr);
     EXPECT_EQ(t.kind == NodeKind::Driver, t.make_driver != nullptr);
+    EXPECT_EQ(t.kind == NodeKind::Imager, t.make_imager != nullptr);
     EXPECT_EQ(t.kind == NodeKind::LightFilter, t.make_light_filter != nullptr);
     const bool evaluates = t.eval_closure != nullptr || t.eval_value != nullptr ||
                            t.eval_text != nullptr || t.eval_matrix != nullptr;

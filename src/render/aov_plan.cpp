@@ -514,7 +514,7 @@ class PartitionFinder {
             const PixelFilter* filter = plan.views[layer.view].filter.get();
             const bool adds_up =
                 filter != nullptr && keeps_sums(filter->reduction()) && !filter->shows_heat();
-            if (layer.expr != nullptr && layer.info.n_channels >= 3 && adds_up)
+            if (layer.expr != nullptr && layer.info.n_channels >= 3 && adds_up && !layer.imaged)
                 layers_.push_back(&layer);
         }
     }
@@ -545,7 +545,7 @@ class PartitionFinder {
         const auto layers_of = [&](LayerSource source) {
             std::vector<const PlannedLayer*> out;
             for (const std::uint32_t index : plan_.drivers[driver_].layers)
-                if (plan_.layers[index].source == source &&
+                if (plan_.layers[index].source == source && !plan_.layers[index].imaged &&
                     plan_.layers[index].info.n_channels >= 3)
                     out.push_back(&plan_.layers[index]);
             return out;

@@ -77,6 +77,7 @@ struct PlannedLayer {
     std::uint32_t driver = 0;
     lpe::Expr expr;  ///< for Expression and Beauty: to prove partitions
     lpe::GroupSelect select = lpe::GroupSelect::All;
+    bool imaged = false;  ///< imagers change what is written: it adds up to nothing
 };
 
 /// A pixel filter that layers use.

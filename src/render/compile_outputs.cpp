@@ -306,6 +306,7 @@ void Compiler::make_driver(PlannedDriver& planned, std::size_t index) {
         scene_->plan.wants_deep = true;
         check_deep(planned);
     }
+    attach_imagers(planned);
     const bool one_layer_only = type->name == Name("driver_png") ||
                                 type->name == Name("driver_jpeg") ||
                                 type->name == Name("driver_tiff");

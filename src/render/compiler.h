@@ -17,6 +17,7 @@
 #include "render/scene.h"
 #include "render/shape_leaf.h"
 #include "scene/graph.h"
+#include "scene/imager.h"
 #include "scene/light_filter.h"
 #include "scene/node_context.h"
 
@@ -170,6 +171,8 @@ class Compiler {
     void part_passes();
     void make_drivers();
     void make_driver(PlannedDriver& planned, std::size_t index);
+    [[nodiscard]] Imagers make_imagers(const NodeInstance* last);
+    void attach_imagers(PlannedDriver& planned);
     void check_files();
     void check_deep(PlannedDriver& planned);
     /// The layers that a viewer is to show.

@@ -214,6 +214,10 @@ class Describe {
             type_.make_driver = [](const void* block, NodeContext& c) {
                 return static_cast<const T*>(block)->make_driver(c);
             };
+        if constexpr (requires(const T& t, NodeContext& c) { t.make_imager(c); })
+            type_.make_imager = [](const void* block, NodeContext& c) {
+                return static_cast<const T*>(block)->make_imager(c);
+            };
         if constexpr (requires(const T& t, NodeContext& c) { t.make_color_spaces(c); })
             type_.make_color_spaces = [](const void* block, NodeContext& c) {
                 return static_cast<const T*>(block)->make_color_spaces(c);

@@ -292,8 +292,8 @@ TEST(UnknownNodes, AreSkippedAndReferencesToThemAreWarnings) {
               std::string::npos);
     EXPECT_NE(b.rendered.find("did you mean \"standard_surface\"?"), std::string::npos);
     EXPECT_EQ(b.graph.skipped().size(), 3U);
-    EXPECT_NE(build("imager_exposure { name brighter exposure 2 }\n")
-                  .rendered.find("files have it as it is rendered"),
+    EXPECT_NE(build("imager_tonemap { name film mode \"filmic\" }\n")
+                  .rendered.find("files have the picture without it"),
               std::string::npos);
     EXPECT_EQ(b.graph.options()->get<NodeRef>("operator").node, nullptr);
     EXPECT_EQ(build(text, UnknownPolicy::Ignore).reported, "");

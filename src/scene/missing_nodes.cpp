@@ -47,7 +47,7 @@ static_assert(std::is_sorted(kMissing.begin(), kMissing.end(),
 
 std::string_view lost_without(std::string_view node_type) {
     if (node_type.starts_with("imager_"))
-        return "imagers change the finished picture: files have it as it is rendered";
+        return "files have the picture without it, and without the imagers before it in the chain";
     const auto* found = std::lower_bound(
         kMissing.begin(), kMissing.end(), node_type,
         [](const Missing& missing, std::string_view type) { return missing.type < type; });

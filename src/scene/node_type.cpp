@@ -28,9 +28,9 @@ constexpr std::array<TypeRow, 14> kTypes{{
 }};
 
 /// In the order of NodeKind.
-constexpr std::array<std::string_view, 10> kKinds{
-    "options", "camera", "shape",        "light",    "shader",
-    "filter",  "driver", "light filter", "operator", "color manager"};
+constexpr std::array<std::string_view, 11> kKinds{
+    "options", "camera",       "shape",    "light",         "shader", "filter",
+    "driver",  "light filter", "operator", "color manager", "imager"};
 
 }  // namespace
 

@@ -21,6 +21,7 @@ class Camera;           // scene/camera.h
 class ColorSpaces;      // core/color.h
 class ClosureSet;       // bsdf/closure.h
 class Driver;           // scene/driver.h
+class Imager;           // scene/imager.h
 class Light;            // scene/light.h
 class LightFilter;      // scene/light_filter.h
 class PixelFilter;      // scene/pixel_filter.h
@@ -42,7 +43,8 @@ enum class NodeKind : std::uint8_t {
     Driver,
     LightFilter,
     Operator,
-    ColorManager
+    ColorManager,
+    Imager
 };
 [[nodiscard]] std::string_view kind_text(NodeKind kind);
 
@@ -114,6 +116,8 @@ struct NodeType {
     std::unique_ptr<Camera> (*make_camera)(const void* block, NodeContext& context) = nullptr;
     std::unique_ptr<PixelFilter> (*make_filter)(const void* block, NodeContext& context) = nullptr;
     std::unique_ptr<Driver> (*make_driver)(const void* block, NodeContext& context) = nullptr;
+    /// Null: it is switched off, or was reported.
+    std::unique_ptr<Imager> (*make_imager)(const void* block, NodeContext& context) = nullptr;
     std::shared_ptr<const ColorSpaces> (*make_color_spaces)(const void* block,
                                                             NodeContext& context) = nullptr;
     void (*edit_scene)(const void* block, OperatorContext& context) = nullptr;

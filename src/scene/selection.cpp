@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <regex>
 #include <variant>
 
 namespace lightsieve {
@@ -69,31 +71,55 @@ Operand operand_of(const NodeInstance& node, const ParamPath& path, const ParamI
 
 // ---- expressions ----
 
+/// Without back references, and so in polynomial time: files of other people bring expressions.
+constexpr auto kRegexSyntax =
+    std::regex_constants::ECMAScript | std::regex_constants::__polynomial;
+/// Longer ones and longer names take too long all the same [bytes].
+constexpr std::size_t kMaxRegex = 256, kMaxRegexName = 1024;
+
 struct Selection::Term {
-    enum class Kind : std::uint8_t { Any, All, Not, Pattern, Collection, Type, Name, Param };
+    enum class Kind : std::uint8_t {
+        Any,
+        All,
+        Not,
+        Pattern,
+        Regex,
+        Collection,
+        Type,
+        Name,
+        Param
+    };
     Kind kind{};
     std::vector<Term> parts;  ///< of Any, All and Not
     std::string text;         ///< a pattern, a collection's or a type's name
+    std::shared_ptr<const std::regex> regex;
     ParamPath param;
     Compare compare{};
     Value value;
 
     [[nodiscard]] bool matches(const Candidate& c, const InCollection& collections) const;
+    [[nodiscard]] bool matches_text(std::string_view name) const;
 
   private:
+    [[nodiscard]] bool fits(std::string_view name) const;
     [[nodiscard]] bool name_matches(const Candidate& c) const;
     [[nodiscard]] bool param_matches(const NodeInstance& node) const;
     [[nodiscard]] bool compare_text(std::string_view text_of_node) const;
 };
 
+bool Selection::Term::fits(std::string_view name) const {
+    if (kind == Kind::Pattern) return glob_matches(text, name);
+    return name.size() <= kMaxRegexName && std::regex_match(name.begin(), name.end(), *regex);
+}
+
 bool Selection::Term::name_matches(const Candidate& c) const {
     const std::string_view name = c.node->name().view();
-    if (glob_matches(text, name)) return true;
+    if (fits(name)) return true;
     if (c.prefix.empty()) return false;
     std::string path = std::string(c.prefix) + std::string(name);
-    if (glob_matches(text, path)) return true;
+    if (fits(path)) return true;
     std::replace(path.begin(), path.end(), '^', '/');
-    return glob_matches(text, path);
+    return fits(path);
 }
 
 bool Selection::Term::compare_text(std::string_view text_of_node) const {
@@ -153,11 +179,28 @@ bool Selection::Term::matches(const Candidate& c, const InCollection& collection
         case Kind::Any: return std::any_of(parts.begin(), parts.end(), fits);
         case Kind::All: return std::all_of(parts.begin(), parts.end(), fits);
         case Kind::Not: return !fits(parts.front());
-        case Kind::Pattern: return name_matches(c);
+        case Kind::Pattern:
+        case Kind::Regex: return name_matches(c);
         case Kind::Collection: return collections && collections(text, c);
         case Kind::Type: return compare_text(c.node->type().name.view());
         case Kind::Name: return compare_text(c.node->name().view());
         case Kind::Param: return param_matches(*c.node);
+    }
+    return false;
+}
+
+bool Selection::Term::matches_text(std::string_view name) const {
+    const auto fits_part = [&](const Term& part) { return part.matches_text(name); };
+    switch (kind) {
+        case Kind::Any: return std::any_of(parts.begin(), parts.end(), fits_part);
+        case Kind::All: return std::all_of(parts.begin(), parts.end(), fits_part);
+        case Kind::Not: return !fits_part(parts.front());
+        case Kind::Pattern:
+        case Kind::Regex: return fits(name);
+        case Kind::Collection:
+        case Kind::Type:
+        case Kind::Name:
+        case Kind::Param: break;
     }
     return false;
 }
@@ -170,6 +213,8 @@ Selection::~Selection() = default;
 bool Selection::matches(const Candidate& candidate, const InCollection& collections) const {
     return root_->matches(candidate, collections);
 }
+
+bool Selection::matches_text(std::string_view name) const { return root_->matches_text(name); }
 
 std::vector<std::string> Selection::patterns() const {
     std::vector<std::string> out;
@@ -284,8 +329,28 @@ class SelectionParser {
             fail("this parenthesis is never closed", open, "add the closing parenthesis");
         return both;
     }
+    Term regex() {
+        const std::size_t begin = at_ + 2;
+        const char quote = text_[at_ + 1];
+        const std::size_t end = text_.find(quote, begin);
+        if (end == std::string_view::npos)
+            fail("this regular expression does not end", at_, "add the quote");
+        if (end - begin > kMaxRegex) fail("this regular expression is too long", at_);
+        at_ = end + 1;
+        Term out;
+        out.kind = Kind::Regex;
+        out.text = text_.substr(begin, end - begin);
+        try {
+            out.regex = std::make_shared<const std::regex>(out.text, kRegexSyntax);
+        } catch (const std::regex_error&) {
+            fail("this is no regular expression", begin, "write it as in ECMAScript");
+        }
+        return out;
+    }
     Term name() {
         peek();
+        const std::string_view start = text_.substr(at_, 2);
+        if (start == "r'" || start == "r\"") return regex();
         const std::size_t begin = at_;
         while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != ')' &&
                text_[at_] != '(' && text_.substr(at_, 2) != ".(")

@@ -4,6 +4,7 @@
 //     *.(@node=='polymesh')            a type of node
 //     car^*.(visibility==255 and matte==off)    values of parameters or user data, here of nodes in the procedural car
 //     * and not (ground or #trees)     combined; #NAME is a collection
+//     r'tree_(small|tall)[0-9]*'       a regular expression, for the whole name
 //
 // A name is compared with the pattern as the file writes it and with its path through procedurals, PROCEDURAL^NAME or
 // PROCEDURAL/NAME. Words of a row (`a b`) mean: any of them. Where Arnold's own rules are not public we take what its
@@ -43,6 +44,8 @@ class Selection {
     ~Selection();
 
     [[nodiscard]] bool matches(const Candidate& candidate, const InCollection& collections) const;
+    /// The same for a name of something that is no node; conditions and collections hold for none.
+    [[nodiscard]] bool matches_text(std::string_view name) const;
     /// The name patterns in it, for "did you mean".
     [[nodiscard]] std::vector<std::string> patterns() const;
 

@@ -115,6 +115,28 @@ TEST(Selections, Combined) {
     EXPECT_EQ(selected("/a/*.(id==7) or cam"), "/a/ball cam") << "and binds before or";
 }
 
+TEST(Selections, ByRegularExpression) {
+    EXPECT_EQ(selected("r'/a/b(all|ox)'"), "/a/ball /a/box");
+    EXPECT_EQ(selected("r\"/a/b.*\" and not */box"), "/a/ball");
+    EXPECT_EQ(selected("r'/a/b'"), "") << "the whole name";
+    EXPECT_EQ(selected("red or r'c.m'"), "cam red");
+    EXPECT_EQ(selected("r'car.red'", "car^"), "red");
+    // Backtracking would take the age of the universe.
+    EXPECT_FALSE(Selection::parse("r'(a*)*b'", {}).matches_text(std::string(500, 'a')));
+}
+
+TEST(Selections, OfOtherNamesThanNodes) {
+    const auto takes = [](const std::string& text, const char* name) {
+        return Selection::parse(text, {}).matches_text(name);
+    };
+    EXPECT_TRUE(takes("RGBA or r'diff.*'", "diffuse_direct"));
+    EXPECT_FALSE(takes("RGBA or r'diff.*'", "specular"));
+    EXPECT_TRUE(takes("* and not (RGBA or Z)", "specular"));
+    EXPECT_FALSE(takes("* and not (RGBA or Z)", "Z"));
+    EXPECT_FALSE(takes("#set", "set")) << "collections hold nodes";
+    EXPECT_FALSE(takes("*.(id==7)", "a"));
+}
+
 /// The report of a bad selection.
 std::string problem(const std::string& text) {
     try {
@@ -138,6 +160,10 @@ TEST(Selections, SayWhereTheyAreWrong) {
               "\"@kind\" is not known (column 4 of \"*.(@kind=='x')\")");
     EXPECT_EQ(problem("*.(@node=='x)"), "this text does not end (column 11 of \"*.(@node=='x)\")");
     EXPECT_EQ(problem("*.(id<'x')"), "a number is expected here (column 7 of \"*.(id<'x')\")");
+    EXPECT_EQ(problem("a r'(b"), "this regular expression does not end (column 3 of \"a r'(b\")");
+    EXPECT_EQ(problem("r'(b'"), "this is no regular expression (column 3 of \"r'(b'\")");
+    EXPECT_TRUE(problem("r'" + std::string(300, 'a') + "'")
+                    .starts_with("this regular expression is too long"));
     EXPECT_EQ(problem("a and"), "a name is expected here (column 6 of \"a and\")");
     EXPECT_EQ(problem("*.(a.q==1)"),
               "components are .r .g .b .a or .x .y .z (column 6 of \"*.(a.q==1)\")");

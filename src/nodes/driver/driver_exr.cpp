@@ -60,8 +60,7 @@ NodeType DriverExr::describe() {
             "Additional header attributes, each \"TYPE name value\" with TYPE one of INT, FLOAT, "
             "STRING, VECTOR2, VECTOR, MATRIX.");
     d.param("input", &DriverExr::input,
-            "The last of a chain of imagers; the picture is written without their changes.")
-        .pending();
+            "The last of a chain of imagers, which change colours before they are written.");
     return d.done();
 }
 

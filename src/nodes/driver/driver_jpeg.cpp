@@ -29,8 +29,7 @@ NodeType DriverJpeg::describe() {
     d.param("output_padded", &DriverJpeg::output_padded,
             "The whole frame, black around the region; off: the region only.");
     d.param("input", &DriverJpeg::input,
-            "The last of a chain of imagers; the picture is written without their changes.")
-        .pending();
+            "The last of a chain of imagers, which change colours before they are written.");
     return d.done();
 }
 

@@ -34,8 +34,7 @@ NodeType DriverPng::describe() {
             "Divides colours by alpha; int8 only.");
     d.param("skip_alpha", &DriverPng::skip_alpha, "Leaves alpha out.");
     d.param("input", &DriverPng::input,
-            "The last of a chain of imagers; the picture is written without their changes.")
-        .pending();
+            "The last of a chain of imagers, which change colours before they are written.");
     return d.done();
 }
 

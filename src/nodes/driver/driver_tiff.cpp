@@ -45,8 +45,7 @@ NodeType DriverTiff::describe() {
         "append", &DriverTiff::append,
         "Goes on with a file that is there, if it has the same size: what is not rendered stays.");
     d.param("input", &DriverTiff::input,
-            "The last of a chain of imagers; the picture is written without their changes.")
-        .pending();
+            "The last of a chain of imagers, which change colours before they are written.");
     return d.done();
 }
 

@@ -234,7 +234,8 @@ void describe_nodes(Describe<Options>& d) {
     d.param("aov_shaders", &Options::aov_shaders,
             "Shaders that run after each surface shader, to write AOVs.");
     d.param("drivers", &Options::drivers, "Drivers that list their own outputs.").pending();
-    d.param("imager", &Options::imager, "Chain of picture effects.").pending();
+    d.param("imager", &Options::imager,
+            "The last of a chain of imagers, for drivers that have none of their own.");
     d.param("color_manager", &Options::color_manager,
             "Where names of colour spaces come from. None: the configuration that $OCIO names, or "
             "else the "
@@ -281,8 +282,7 @@ void describe_switches(Describe<Options>& d) {
     d.param("ignore_sss", &Options::ignore_sss, "Renders without subsurface scattering.");
     d.param("ignore_smoothing", &Options::ignore_smoothing, "Renders meshes with face normals.");
     d.param("ignore_operators", &Options::ignore_operators, "Operators do nothing.");
-    d.param("ignore_imagers", &Options::ignore_imagers, "Skips imagers, which act with `imager`.")
-        .ignored();
+    d.param("ignore_imagers", &Options::ignore_imagers, "Skips imagers.");
     d.param("ignore_list", &Options::ignore_list,
             "Types of nodes that are left out, with all that refers to them.");
 }
