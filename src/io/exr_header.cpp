@@ -12,6 +12,7 @@
 #include <ImfTileDescription.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace lightsieve {
@@ -56,7 +57,18 @@ exr::Compression exr_compression(ExrCompression compression) {
     return exr::ZIP_COMPRESSION;
 }
 
-void add_attribute(exr::Header& header, const std::string& name, const ExrAttribute& value) {
+exr::Chromaticities exr_chromaticities(Primaries primaries) {
+    const Chromaticities c = chromaticities(primaries);
+    const auto point = [](double x, double y) {
+        return V2f(static_cast<float>(x), static_cast<float>(y));
+    };
+    return {point(c.red_x, c.red_y), point(c.green_x, c.green_y), point(c.blue_x, c.blue_y),
+            point(c.white_x, c.white_y)};
+}
+
+}  // namespace
+
+void add_exr_attribute(exr::Header& header, const std::string& name, const ExrAttribute& value) {
     if (kReserved.contains(name))
         throw std::runtime_error("the header attribute \"" + name + "\" cannot be chosen");
     if (const int* i = std::get_if<int>(&value)) header.insert(name, exr::IntAttribute(*i));
@@ -74,17 +86,6 @@ void add_attribute(exr::Header& header, const std::string& name, const ExrAttrib
     }
 }
 
-exr::Chromaticities exr_chromaticities(Primaries primaries) {
-    const Chromaticities c = chromaticities(primaries);
-    const auto point = [](double x, double y) {
-        return V2f(static_cast<float>(x), static_cast<float>(y));
-    };
-    return {point(c.red_x, c.red_y), point(c.green_x, c.green_y), point(c.blue_x, c.blue_y),
-            point(c.white_x, c.white_y)};
-}
-
-}  // namespace
-
 void refuse_exr(const std::string& path, const std::string& why, const std::string& hint) {
     throw InputError(Error{Code::FileUnwritable,
                            "cannot write \"" + path + "\": " + why,
@@ -101,6 +102,46 @@ exr::PixelType exr_type(ExrPixelType type) {
         case ExrPixelType::UInt: return exr::UINT;
     }
     return exr::FLOAT;
+}
+
+ExrPixelType pixel_type_of(const exr::Channel& channel) {
+    switch (channel.type) {
+        case exr::HALF: return ExrPixelType::Half;
+        case exr::UINT: return ExrPixelType::UInt;
+        default: return ExrPixelType::Float;
+    }
+}
+
+ExrCompression compression_of(const exr::Header& header) {
+    switch (header.compression()) {
+        case exr::RLE_COMPRESSION: return ExrCompression::Rle;
+        case exr::ZIP_COMPRESSION: return ExrCompression::Zip;
+        case exr::ZIPS_COMPRESSION: return ExrCompression::Zips;
+        case exr::PIZ_COMPRESSION: return ExrCompression::Piz;
+        case exr::PXR24_COMPRESSION: return ExrCompression::Pxr24;
+        case exr::B44_COMPRESSION: return ExrCompression::B44;
+        case exr::B44A_COMPRESSION: return ExrCompression::B44a;
+        case exr::DWAA_COMPRESSION: return ExrCompression::Dwaa;
+        case exr::DWAB_COMPRESSION: return ExrCompression::Dwab;
+        default: return ExrCompression::None;
+    }
+}
+
+std::size_t exr_value_size(ExrPixelType type) {
+    return type == ExrPixelType::Half ? sizeof(half) : sizeof(float);
+}
+
+void store_exr_row(ExrPixelType type, const float* from, std::ptrdiff_t stride, int n, char* to) {
+    for (int i = 0; i < n; ++i) {
+        const float v = from[i * stride];
+        if (type == ExrPixelType::Half) {
+            const half h(std::isfinite(v) ? std::clamp(v, -kHalfMax, kHalfMax) : v);
+            std::memcpy(to + static_cast<std::size_t>(i) * sizeof(half), &h, sizeof(half));
+        } else {
+            // UInt values come as the bits of a float.
+            std::memcpy(to + static_cast<std::size_t>(i) * sizeof(float), &v, sizeof(float));
+        }
+    }
 }
 
 exr::Header make_exr_header(const ExrWriteSpec& spec, const ExrPart& part) {
@@ -124,7 +165,7 @@ exr::Header make_exr_header(const ExrWriteSpec& spec, const ExrPart& part) {
         header.channels().insert(channel.name, exr::Channel(exr_type(channel.type)));
     }
     for (const auto& [name, value] : spec.attributes)
-        add_attribute(header, name, value);
+        add_exr_attribute(header, name, value);
     return header;
 }
 

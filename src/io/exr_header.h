@@ -1,6 +1,7 @@
-// What files of flat and of deep pixels share when they are written: the header, the stream, errors.
+// What all that writes OpenEXR files shares: the header, the stream, values in the file's types, errors.
 #pragma once
 
+#include <ImfChannelList.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfPixelType.h>
@@ -78,6 +79,17 @@ class ExrFileStream final : public exr::OStream {
 };
 
 [[nodiscard]] exr::PixelType exr_type(ExrPixelType type);
+[[nodiscard]] ExrPixelType pixel_type_of(const exr::Channel& channel);
+[[nodiscard]] ExrCompression compression_of(const exr::Header& header);
+
+/// Bytes of one value.
+[[nodiscard]] std::size_t exr_value_size(ExrPixelType type);
+
+/// Stores `n` values of one channel, `stride` floats apart, in the file's type.
+void store_exr_row(ExrPixelType type, const float* from, std::ptrdiff_t stride, int n, char* to);
+
+/// Adds an attribute, or replaces one of that type. Throws for those that OpenEXR keeps itself.
+void add_exr_attribute(exr::Header& header, const std::string& name, const ExrAttribute& value);
 
 /// Everything of a part's header but what only deep files have. Throws what OpenEXR throws.
 [[nodiscard]] exr::Header make_exr_header(const ExrWriteSpec& spec, const ExrPart& part);

@@ -21,12 +21,12 @@
 #include <set>
 
 #include "core/error.h"
+#include "io/exr_header.h"
 
 namespace lightsieve {
 
 namespace {
 
-namespace exr = OPENEXR_IMF_NAMESPACE;
 using IMATH_NAMESPACE::Box2i;
 
 [[noreturn]] void fail(Code code, std::string message, std::string hint) {
@@ -109,29 +109,6 @@ void check_attribute_sizes(const std::string& path) {
     }
 }
 
-ExrPixelType our_type(exr::PixelType type) {
-    switch (type) {
-        case exr::HALF: return ExrPixelType::Half;
-        case exr::UINT: return ExrPixelType::UInt;
-        default: return ExrPixelType::Float;
-    }
-}
-
-ExrCompression our_compression(exr::Compression compression) {
-    switch (compression) {
-        case exr::RLE_COMPRESSION: return ExrCompression::Rle;
-        case exr::ZIP_COMPRESSION: return ExrCompression::Zip;
-        case exr::ZIPS_COMPRESSION: return ExrCompression::Zips;
-        case exr::PIZ_COMPRESSION: return ExrCompression::Piz;
-        case exr::PXR24_COMPRESSION: return ExrCompression::Pxr24;
-        case exr::B44_COMPRESSION: return ExrCompression::B44;
-        case exr::B44A_COMPRESSION: return ExrCompression::B44a;
-        case exr::DWAA_COMPRESSION: return ExrCompression::Dwaa;
-        case exr::DWAB_COMPRESSION: return ExrCompression::Dwab;
-        default: return ExrCompression::None;
-    }
-}
-
 /// Channels of later parts carry their part's name unless they already do.
 std::string full_name(const exr::Header& header, int part, const std::string& channel) {
     if (part == 0 || !header.hasName() || channel.find('.') != std::string::npos ||
@@ -197,7 +174,7 @@ ExrFile read_headers(const std::string& path, const exr::MultiPartInputFile& fil
             read_windows(path, header, out);
             out.pixel_aspect_ratio = header.pixelAspectRatio();
             out.tiled = header.hasTileDescription();
-            out.compression = our_compression(header.compression());
+            out.compression = compression_of(header);
             read_attributes(header, out.attributes);
         } else if (header.dataWindow() != file.header(0).dataWindow()) {
             fail(Code::FileFormat,
@@ -213,7 +190,7 @@ ExrFile read_headers(const std::string& path, const exr::MultiPartInputFile& fil
                      "convert the file to RGB");
             }
             out.channels.push_back(
-                {full_name(header, p, it.name()), our_type(it.channel().type), {}});
+                {full_name(header, p, it.name()), pixel_type_of(it.channel()), {}});
         }
     }
     return out;
@@ -241,6 +218,17 @@ void read_pixels(exr::MultiPartInputFile& file, const std::string& path, ExrFile
 }
 
 }  // namespace
+
+bool loses_precision(ExrCompression compression, ExrPixelType type) {
+    switch (compression) {
+        case ExrCompression::B44:
+        case ExrCompression::B44a: return type == ExrPixelType::Half;
+        case ExrCompression::Pxr24: return type == ExrPixelType::Float;
+        case ExrCompression::Dwaa:
+        case ExrCompression::Dwab: return true;
+        default: return false;
+    }
+}
 
 const ExrReadChannel* ExrFile::find(const std::string& name) const {
     const auto it = std::find_if(channels.begin(), channels.end(),

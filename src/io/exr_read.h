@@ -22,6 +22,9 @@ struct ExrReadChannel {
         pixels;  ///< data_height * data_width, row 0 at the top; UInt as the bits of a float; empty after read_exr_header
 };
 
+/// Whether a compression changes values of this type by more than sums of layers may be off.
+[[nodiscard]] bool loses_precision(ExrCompression compression, ExrPixelType type);
+
 struct ExrFile {
     int width = 0, height = 0;  ///< display window [pixels]
     int data_x = 0, data_y = 0, data_width = 0,

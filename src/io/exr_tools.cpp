@@ -68,6 +68,7 @@ void describe(const ExrFile& file, ExrLayer& layer) {
     layer.filter_width = float_attribute(file, prefix + "filter_width");
     layer.expression = text_attribute(file, prefix + "lpe_expression");
     layer.light_group = text_attribute(file, prefix + "light_group");
+    layer.camera = text_attribute(file, prefix + "camera");
 }
 
 void sort_channels(ExrLayer& layer) {
@@ -128,18 +129,6 @@ const std::vector<float>* channel_of(const ExrFile& file, const ExrLayer& layer,
         if (layer.suffixes[i] == suffix) return &file.channels[layer.channels[i]].pixels;
     }
     return nullptr;
-}
-
-/// Whether the file's compression changes values of this type by more than the tolerances.
-bool loses_precision(ExrCompression compression, ExrPixelType type) {
-    switch (compression) {
-        case ExrCompression::B44:
-        case ExrCompression::B44a: return type == ExrPixelType::Half;
-        case ExrCompression::Pxr24: return type == ExrPixelType::Float;
-        case ExrCompression::Dwaa:
-        case ExrCompression::Dwab: return true;
-        default: return false;
-    }
 }
 
 /// The layers of one sum; the first is the whole.

@@ -24,6 +24,7 @@ struct ExrLayer {
     float filter_width = 0;   ///< [pixels]
     std::string expression;   ///< light path expression; empty if none
     std::string light_group;  ///< empty if none
+    std::string camera;       ///< of several; empty if the header does not say
 };
 
 /// The layers of a file, the unnamed one first, then by name.

@@ -6,8 +6,6 @@
 #include <ImfTiledOutputPart.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <optional>
 #include <set>
 #include <utility>
@@ -23,10 +21,6 @@ namespace {
 using IMATH_NAMESPACE::V2i;
 
 constexpr int kMaxTileSize = 4096;
-
-std::size_t value_size(ExrPixelType type) {
-    return type == ExrPixelType::Half ? sizeof(half) : sizeof(float);
-}
 
 void check_spec(const std::string& path, const ExrWriteSpec& spec) {
     const bool sized =
@@ -61,20 +55,6 @@ struct Rect {
     int x0, y0, x1, y1;  ///< x1, y1 are outside
 };
 
-/// Stores one row of a channel in the file's type.
-void store_row(ExrPixelType type, const float* from, std::ptrdiff_t stride, int n, char* to) {
-    for (int i = 0; i < n; ++i) {
-        const float v = from[i * stride];
-        if (type == ExrPixelType::Half) {
-            const half h(std::isfinite(v) ? std::clamp(v, -kHalfMax, kHalfMax) : v);
-            std::memcpy(to + static_cast<std::size_t>(i) * sizeof(half), &h, sizeof(half));
-        } else {
-            // UInt values come as the bits of a float.
-            std::memcpy(to + static_cast<std::size_t>(i) * sizeof(float), &v, sizeof(float));
-        }
-    }
-}
-
 }  // namespace
 
 struct ExrWriter::State {
@@ -89,7 +69,7 @@ struct ExrWriter::State {
             for (const ExrChannel& channel : part.channels) {
                 types.push_back(channel.type);
                 pixel_offset.push_back(bytes_per_pixel);
-                bytes_per_pixel += value_size(channel.type);
+                bytes_per_pixel += exr_value_size(channel.type);
             }
         }
     }
@@ -121,8 +101,8 @@ struct ExrWriter::State {
                 const auto at =
                     static_cast<std::size_t>(y - block.y) * static_cast<std::size_t>(block.width) +
                     static_cast<std::size_t>(part.x0 - block.x);
-                store_row(types[c], from, plane.pixel_stride, n,
-                          channel + at * value_size(types[c]));
+                store_exr_row(types[c], from, plane.pixel_stride, n,
+                              channel + at * exr_value_size(types[c]));
             }
         }
         const auto area =

@@ -3,8 +3,10 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <string>
 
+#include "io/exr_rewrite.h"
 #include "io/exr_tools.h"
 #include "python/layers.h"
 #include "python/text.h"
@@ -79,7 +81,8 @@ void add_info(nb::module_& module) {
         .def_ro("filter", &ExrLayer::filter, "Empty if the header does not say.")
         .def_ro("filter_width", &ExrLayer::filter_width, "[pixels]")
         .def_ro("expression", &ExrLayer::expression, "Light path expression; empty if none.")
-        .def_ro("light_group", &ExrLayer::light_group, "Empty if none.");
+        .def_ro("light_group", &ExrLayer::light_group, "Empty if none.")
+        .def_ro("camera", &ExrLayer::camera, "That its output names; empty: the scene's.");
     nb::class_<ExrInfo>(module, "ExrInfo", "The header and the layers of an EXR file.")
         .def_ro("layers", &ExrInfo::layers, "The unnamed one first, then by name.")
         .def_prop_ro(
@@ -107,6 +110,15 @@ void add_info(nb::module_& module) {
             "compression", [](const ExrInfo& i) { return compression_text(i.file.compression); },
             "As in driver_exr.compression.")
         .def_prop_ro(
+            "lossy",
+            [](const ExrInfo& i) {
+                return std::any_of(i.file.channels.begin(), i.file.channels.end(),
+                                   [&](const ExrReadChannel& c) {
+                                       return loses_precision(i.file.compression, c.type);
+                                   });
+            },
+            "The compression changes values by more than sums of layers may be off.")
+        .def_prop_ro(
             "attributes", [](const ExrInfo& i) { return attributes(i.file); },
             nb::sig("def attributes(self) -> dict[str, int | float | str | list[float]]"),
             "Header attributes of the first part.");
@@ -123,6 +135,45 @@ void add_info(nb::module_& module) {
         "path"_a, nb::sig("def exr_read(path: str) -> list[tuple[ExrLayer, numpy.ndarray]]"),
         "Each layer with its pixels over the data window: shape (height, width, channels), row 0 "
         "at the top.");
+}
+
+using LayerPixels = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+
+/// The channels of the layers that `pixels` has, in the places that `rewrite_exr` knows them by.
+ExrChanges changes_of(const ExrInfo& info, const std::map<std::string, LayerPixels>& pixels) {
+    ExrChanges changes;
+    for (const ExrLayer& layer : info.layers) {
+        const auto found = pixels.find(layer.name);
+        if (found == pixels.end()) continue;
+        const LayerPixels& from = found->second;
+        const auto n = layer.channels.size();
+        if (from.shape(0) != static_cast<std::size_t>(info.file.data_height) ||
+            from.shape(1) != static_cast<std::size_t>(info.file.data_width) || from.shape(2) != n)
+            throw nb::value_error("pixels of another shape than the layer's");
+        const auto stride = static_cast<std::ptrdiff_t>(n);
+        for (std::size_t c = 0; c < n; ++c)
+            changes.channels[layer.channels[c]] = {from.data() + c, stride,
+                                                   stride * info.file.data_width};
+    }
+    return changes;
+}
+
+void add_rewrite(nb::module_& module) {
+    module.def(
+        "exr_rewrite",
+        [](const std::string& path, const std::string& output,
+           const std::map<std::string, LayerPixels>& pixels,
+           const std::map<std::string, std::string>& attributes) {
+            ExrChanges changes = changes_of(exr_info(path), pixels);
+            changes.attributes.insert(attributes.begin(), attributes.end());
+            const nb::gil_scoped_release release;
+            rewrite_exr(path, output, changes);
+        },
+        "path"_a, "output"_a, "pixels"_a, "attributes"_a,
+        nb::sig("def exr_rewrite(path: str, output: str, pixels: dict[str, numpy.ndarray], "
+                "attributes: dict[str, str]) -> None"),
+        "Copies a file with other pixels in some layers: shape (height, width, channels) of the "
+        "data window. All else stays bit for bit.");
 }
 
 void add_verify(nb::module_& module) {
@@ -174,6 +225,7 @@ void add_diff(nb::module_& module) {
 
 void add_exr(nb::module_& module) {
     add_info(module);
+    add_rewrite(module);
     add_verify(module);
     add_diff(module);
 }

@@ -19,6 +19,7 @@
 #include "render/live_view.h"
 #include "render/mattes.h"
 #include "render/memory_use.h"
+#include "scene/graph.h"
 
 namespace lightsieve {
 namespace {
@@ -157,9 +158,24 @@ class Renderer {
     Clock::time_point start_;
 };
 
+/// Says which camera sees each layer where there are several: the layers look alike otherwise.
+void name_cameras(const AovPlan& plan, const PlannedDriver& driver, ImageHeader& header) {
+    for (const std::uint32_t layer : driver.layers) {
+        const NodeInstance* camera = plan.passes[plan.layers[layer].pass].camera_node;
+        const bool one_of_several =
+            camera != nullptr &&
+            std::any_of(plan.passes.begin(), plan.passes.end(),
+                        [&](const Pass& p) { return p.camera_node != camera; });
+        if (one_of_several)
+            header.metadata["arnold/aovs/" + plan.layers[layer].info.name + "/camera"] =
+                camera->name().str();
+    }
+}
+
 ImageHeader Renderer::header_of(const PlannedDriver& driver, std::size_t index) const {
     const RenderSettings& s = scene_.settings;
     ImageHeader h = frame_header(scene_, driver);
+    name_cameras(scene_.plan, driver, h);
     h.metadata["lightsieve/version"] = std::string(kVersion);
     h.metadata["lightsieve/samples_per_pixel"] = s.samples;
     if (s.samples_max > s.samples) h.metadata["lightsieve/samples_per_pixel_max"] = s.samples_max;
