@@ -5,8 +5,8 @@
     True
 
 `render` and `check` read Arnold scenes, `lpe` is the engine of light path expressions, `exr` reads
-and checks the files, `nodes` lists what a scene may contain. Everything is loaded when it is first
-used: importing the package costs nothing.
+and checks the files, `denoise` takes their noise away, `nodes` lists what a scene may contain.
+Everything is loaded when it is first used: importing the package costs nothing.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from lightsieve.errors import Diagnostic, LightsieveError, Note
 
 if TYPE_CHECKING:
     from lightsieve import exr, lpe
+    from lightsieve.denoising import denoise
     from lightsieve.frame import Frame
     from lightsieve.rendering import check, render
     from lightsieve.scene import nodes
@@ -29,6 +30,7 @@ __all__ = [
     "Note",
     "__version__",
     "check",
+    "denoise",
     "exr",
     "lpe",
     "nodes",
@@ -39,6 +41,7 @@ __all__ = [
 _LAZY = {
     "Frame": "frame",
     "check": "rendering",
+    "denoise": "denoising",
     "exr": "",
     "lpe": "",
     "nodes": "scene",

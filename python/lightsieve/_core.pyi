@@ -53,6 +53,10 @@ class ExrLayer:
     def light_group(self) -> str:
         """Empty if none."""
 
+    @property
+    def camera(self) -> str:
+        """That its output names; empty: the scene's."""
+
 class ExrInfo:
     """The header and the layers of an EXR file."""
 
@@ -89,6 +93,10 @@ class ExrInfo:
         """As in driver_exr.compression."""
 
     @property
+    def lossy(self) -> bool:
+        """The compression changes values by more than sums of layers may be off."""
+
+    @property
     def attributes(self) -> dict[str, int | float | str | list[float]]:
         """Header attributes of the first part."""
 
@@ -98,6 +106,11 @@ def exr_info(path: str) -> ExrInfo:
 def exr_read(path: str) -> list[tuple[ExrLayer, numpy.ndarray]]:
     """
     Each layer with its pixels over the data window: shape (height, width, channels), row 0 at the top.
+    """
+
+def exr_rewrite(path: str, output: str, pixels: dict[str, numpy.ndarray], attributes: dict[str, str]) -> None:
+    """
+    Copies a file with other pixels in some layers: shape (height, width, channels) of the data window. All else stays bit for bit.
     """
 
 class ExrSumCheck:

@@ -19,7 +19,7 @@ class Settings(TypedDict, total=False):
     """What a caller may say beyond the scene; what is left out is as the scene says."""
 
     aovs: Iterable[str]
-    """Outputs added to the first driver: `"diffuse"` (of type RGB) or `"diffuse RGBA"`."""
+    """Outputs added to the first EXR driver if it lacks them: `"diffuse"` (RGB), `"N VECTOR"`."""
     lpes: Mapping[str, str]
     """Expressions by name, defined and output as RGB."""
     output: Path

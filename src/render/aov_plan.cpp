@@ -145,7 +145,7 @@ class Planner {
         for (const auto& [text, where] : option_strings(input_.graph, "outputs"))
             if (std::optional<OutputString> output = parse_output(text, where, diagnostics_))
                 outputs_.push_back(std::move(*output));
-        const OutputString first = outputs_.empty() ? OutputString{} : outputs_.front();
+        const OutputString first = first_for_more();
         const bool asks_more = !input_.options.aovs.empty() || !input_.options.lpes.empty();
         const bool nothing_written = outputs_.empty() && !diagnostics_.has_errors();
         // A scene that asks for nothing gets its beauty, and so does one that only the command line asks something of.
@@ -159,13 +159,33 @@ class Planner {
                                    where, "for example \"diffuse RGB\" or \"N VECTOR\"");
                 continue;
             }
-            outputs_.push_back({"", words[0], words.size() > 1 ? words[1] : natural_type(words[0]),
-                                first.filter, first.driver, "", false, where});
+            const std::string type = words.size() > 1 ? words[1] : natural_type(words[0]);
+            if (!is_written(words[0], type, first.driver))
+                outputs_.push_back(
+                    {"", words[0], type, first.filter, first.driver, "", false, where});
         }
         for (const std::string& text : input_.options.lpes)
             if (const std::vector<std::string> words = split_blanks(text); !words.empty())
                 outputs_.push_back({"", words[0], "RGB", first.filter, first.driver, "", false,
                                     lpe::stand_alone(text, "<--lpe>")});
+    }
+
+    /// The output whose driver and filter those of the command line take: the first to a file that holds many.
+    [[nodiscard]] OutputString first_for_more() const {
+        for (const OutputString& output : outputs_) {
+            const NodeInstance* driver = input_.graph.find(output.driver);
+            if (driver != nullptr && driver->type().name == Name("driver_exr")) return output;
+        }
+        return outputs_.empty() ? OutputString{} : outputs_.front();
+    }
+
+    /// Whether a driver gets that layer already; with alpha it is there, too.
+    [[nodiscard]] bool is_written(const std::string& aov, const std::string& type,
+                                  const std::string& driver) const {
+        return std::any_of(outputs_.begin(), outputs_.end(), [&](const OutputString& o) {
+            return o.aov == aov && o.driver == driver && o.layer.empty() && o.camera.empty() &&
+                   (o.type == type || o.type == type + "A");
+        });
     }
 
     static std::string natural_type(std::string_view aov) {

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from lightsieve import statistics
-from lightsieve.cli import _log, _output, _progress, _scene_options, _signals, _summary
+from lightsieve.cli import _denoising, _log, _output, _progress, _scene_options, _signals, _summary
 from lightsieve.errors import LightsieveError
 from lightsieve.statistics import StatisticsFile
 
@@ -26,6 +26,8 @@ JSON = {
     **_scene_options.DIAGNOSTICS_JSON,
     **statistics.KEYS,
     "files": "written; this and all below are missing if errors forbid rendering",
+    "denoised": "with --denoise one object an EXR file, as `lightsieve denoise --json` prints it "
+    "or `file` and `errors`; else empty",
 }
 
 
@@ -61,9 +63,17 @@ def _named(definitions: Sequence[str] | None) -> dict[str, str]:
     return out
 
 
-def _document(scene: Path, compiled: CompiledScene, outcome: Outcome | None) -> dict[str, Any]:
+def _document(
+    scene: Path,
+    compiled: CompiledScene,
+    outcome: Outcome | None,
+    denoised: _denoising.Results,
+) -> dict[str, Any]:
     document = {"scene": str(scene), **_scene_options.diagnostics_document(compiled)}
-    return document | ({} if outcome is None else statistics.of_render(compiled, outcome))
+    if outcome is not None:
+        document |= statistics.of_render(compiled, outcome)
+        document["denoised"] = _denoising.documents(denoised)
+    return document
 
 
 def _say_stopped(outcome: Outcome, cause: str) -> None:
@@ -160,7 +170,7 @@ def command(
         typer.Option(
             "--aov",
             metavar='"NAME TYPE"',
-            help="Add an output to the first driver; may be repeated.",
+            help="Add an output to the first EXR driver, if it lacks it; may be repeated.",
         ),
     ] = None,
     lpes: Annotated[
@@ -236,6 +246,15 @@ def command(
             show_default=False,
         ),
     ] = None,
+    denoise: Annotated[
+        bool,
+        typer.Option(
+            "--denoise",
+            help="When the render is done, denoise every EXR file to FILE_denoised.exr beside it, "
+            "as `lightsieve denoise` does. The layers albedo and N are added to the first one: "
+            "they help.",
+        ),
+    ] = False,
     isa: Annotated[
         Literal["sse2", "avx2", "avx512"] | None,
         typer.Option(
@@ -269,8 +288,10 @@ def command(
         raise typer.BadParameter(
             "--no-checkpoint forbids what --resume and --keep-checkpoint need"
         )
+    if denoise:
+        _denoising.require_denoiser()
     settings: Settings = {
-        "aovs": aovs or (),
+        "aovs": [*(aovs or ()), *(_denoising.HELPERS if denoise else ())],
         "lpes": _named(lpes),
         "threads": threads,
         "camera": camera,
@@ -297,6 +318,9 @@ def command(
     compiled = _scene_options.compile_scene(
         path, write_files=True, assignments=assignments, **settings
     )
+    if denoise and compiled.usable:
+        _denoising.require_picture(compiled.summary().files)
+    denoised: _denoising.Results = []
     log = compiled.summary().log if compiled.usable else None
     if quiet or verbosity is not None:
         level = 0 if quiet else verbosity or 0
@@ -308,19 +332,25 @@ def command(
         file = _statistics_file(stats, log)
         with _signals.interrupt() as came:
             outcome = _run(compiled, level=level)
+            if denoise and outcome is not None and not outcome.interrupted:
+                denoised = _denoising.denoise_files(
+                    outcome.files, came, threads=threads, quiet=level <= 0
+                )
         printed.report()
         if outcome is not None and outcome.interrupted:
             _say_stopped(outcome, _signals.name_of(came[0]))
-        document = _document(path, compiled, outcome)
+        document = _document(path, compiled, outcome, denoised)
         if file is not None and outcome is not None:
             file.write(document)
         if json:
             _output.print_json(document)
         elif outcome is not None and level > 0:
             _summary.print_render(compiled, outcome, everything=level > 1)
+        if not json:
+            _denoising.print_results(denoised, quiet=level <= 0)
     if came:
         raise typer.Exit(_signals.exit_code(came[0]))
-    if compiled.n_errors:
+    if compiled.n_errors or _denoising.failed(denoised):
         raise typer.Exit(1)
 
 
