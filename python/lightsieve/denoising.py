@@ -64,6 +64,8 @@ ALBEDOS = (
 NORMALS = ("N", "N_denoise")
 # How far the mean reaches that stands in for a value that is no number, at first [pixels].
 PATCH_RADIUS = 2
+# Rows of the picture whose layers are brought together at a time: what bounds the memory for that.
+BAND_ROWS = 64
 
 
 class Denoised(NamedTuple):
@@ -326,27 +328,30 @@ def _sums_of(info: ExrInfo, names: Iterable[str]) -> list[Sum]:
 
 def _bring_together(frame: Frame, cleaned: dict[str, Picture], sums: list[Sum]) -> None:
     """Moves denoised layers so that the sums hold, each colour by itself."""
-    errors = {
-        name: squared_error(_light(frame, name), picture) for name, picture in cleaned.items()
-    }
+    errors: dict[str, Picture] = {}
     for name, picture in cleaned.items():
+        # Roots: squares of faint light would be too small for the type, which saves memory.
+        errors[name] = np.sqrt(squared_error(_light(frame, name), picture)).astype(np.float32)
         # Where no sample brought light there is none: the network leaves a trace of it.
         picture[errors[name] == 0] = 0
     # Layers of one value (luminance) and layers of colour are no parts of one another.
     for n_channels in (1, 3):
         alike = [
-            s for s in sums if all(cleaned[n].shape[2] == n_channels for n in (s.whole, *s.parts))
+            s
+            for s in sums
+            if all(cleaned[name].shape[2] == n_channels for name in (s.whole, *s.parts))
         ]
         names = sorted({name for s in alike for name in (s.whole, *s.parts)})
-        if not names:
-            continue
-        together = reconcile(
-            np.stack([cleaned[name].astype(np.float64).ravel() for name in names]),
-            np.stack([errors[name].ravel() for name in names]),
-            equations(alike, names),
-        )
-        for name, values in zip(names, together, strict=True):
-            cleaned[name] = values.reshape(cleaned[name].shape).astype(np.float32)
+        matrix = equations(alike, names)
+        for top in range(0, frame.height if names else 0, BAND_ROWS):
+            rows = slice(top, top + BAND_ROWS)
+            together = reconcile(
+                np.stack([cleaned[n][rows].astype(np.float64).ravel() for n in names]),
+                np.stack([errors[n][rows].astype(np.float64).ravel() ** 2 for n in names]),
+                matrix,
+            )
+            for name, values in zip(names, together, strict=True):
+                cleaned[name][rows] = values.reshape(cleaned[name][rows].shape)
 
 
 def _story(version: str, help_: _Helpers) -> str:
@@ -369,9 +374,6 @@ def _write(
         # From now on nothing is lost, so sums are checked: only those that were made to hold may
         # be claimed.
         attributes[PARTITIONS_ATTRIBUTE] = "\n".join(map(str, sums))
-    pixels = {}
     for name, picture in cleaned.items():
-        whole = np.array(frame.layer(name), dtype=np.float32)
-        whole[:, :, : picture.shape[2]] = picture
-        pixels[name] = whole
-    _core.exr_rewrite(source, target, pixels, attributes)
+        _light(frame, name)[:] = picture
+    _core.exr_rewrite(source, target, {name: frame.layer(name) for name in cleaned}, attributes)
