@@ -66,21 +66,26 @@ void Integrator<Tracker>::ask_lights(const Surface& surface, LightPlan plan) {
     const Vec3f position = surface.at.position;
     const Vec3f normal = transmissive_ ? Vec3f{0, 0, 0} : surface.outward;
     const std::uint32_t pair = kFirstPair + path_.segment * kPairsPerSegment;
+    // One sample is the path's own point; several are parts of it, and so of one pattern.
     if (lights.lights().size() > kMostLights) {
         const auto n = static_cast<std::uint32_t>(scene_.settings.gi_samples.light_picks());
+        const auto pick_and_ask = [&](float u_pick, Vec2f u, float coin) {
+            const LightPick pick = lights.pick(position, normal, u_pick);
+            if (pick.probability > 0)
+                ask_light(surface, pick.light, static_cast<float>(n) * pick.probability, u, coin);
+        };
+        if (n == 1) return pick_and_ask(points_.choice.y, points_.light, random(kCoinStream));
         for (std::uint32_t i = 0; i < n; ++i) {
             const Sampler part = path_.sampler.split(kPickFamily, i, n);
-            const LightPick pick = lights.pick(position, normal, part.at2(pair).y);
-            if (pick.probability > 0)
-                ask_light(surface, pick.light, static_cast<float>(n) * pick.probability,
-                          part.at2(pair + 2), part.random(kCoinStream));
+            pick_and_ask(part.at2(pair).y, part.at2(pair + 2), part.random(kCoinStream));
         }
         return;
     }
+    const bool one_light = lights.lights().size() == 1;
     for (const std::uint32_t index : lights.lights()) {
         const float samples = light_samples(plan, lights, position, normal, index);
         const auto n = static_cast<std::uint32_t>(samples);
-        if (n == 1 && lights.lights().size() == 1)
+        if (n == 1 && one_light)
             return ask_light(surface, index, 1, points_.light, random(kCoinStream));
         for (std::uint32_t i = 0; i < n; ++i) {
             const Sampler part = path_.sampler.split(kLightFamily + index, i, n);

@@ -84,8 +84,9 @@ void Integrator<Tracker>::ask_light(const Surface& surface, std::uint32_t index,
     std::array<float, kMaxChannels> weights;
     for (std::size_t c = 0; c < n_channels_; ++c)
         weights[c] = alone ? part : part * power_heuristic(pdf_light, pdf_rays[mixture_[c]]);
-    const float kept =
-        low_light_survival(value, weights, light, sample.radiance * (1 / sample.pdf));
+    // What the sample stands for, be it one of several of its light or picked among many lights.
+    const Color stands_for = sample.radiance * (1 / (sample.pdf * std::min(samples, 1.0F)));
+    const float kept = low_light_survival(value, weights, light, stands_for);
     if (kept < 1 && coin >= kept) return;
     const Visibility visible = visibility(surface, index, sample);
     if (is_black(visible.tinted)) return;
