@@ -48,10 +48,9 @@ TEST(Unbiased, LowLightThresholdMovesNoAov) {
 TEST(Unbiased, LowLightThresholdAsksWhatASampleStandsFor) {
     // Twenty equal lamps of which each vertex asks some: alone each is too faint to matter, together they are not.
     const auto lit = [](float threshold) {
-        std::string text =
-            frame_text(8, 8, 4, ortho_camera({0.7F, 0.5F, 0.4F}, {0, 0, 0}, 1e-3F),
-                       " low_light_threshold " + std::to_string(threshold) + '\n') +
-            lambert("grey", 0.5F) + floor("ground", 0, 3, "grey");
+        std::string text = frame_text(8, 8, 4, ortho_camera({0.7F, 0.5F, 0.4F}, {0, 0, 0}, 1e-3F),
+                                      " low_light_threshold " + std::to_string(threshold) + '\n') +
+                           lambert("grey", 0.5F) + floor("ground", 0, 3, "grey");
         for (int i = 0; i < 20; ++i)
             text += node("point_light", "lamp" + std::to_string(i), " position 0 1 0");
         return render(text);
