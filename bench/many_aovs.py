@@ -1,6 +1,6 @@
 """What a frame of hundreds of AOVs takes: the showcase with 300 layers, one sample a pixel.
 
-    python bench/many_aovs.py [--layers 300] [--size 3840x2160]
+    python bench/many_aovs.py [--layers 300] [--size 3840x2160] [OPTIONS OF render]
 
 Prints the forecast, what was measured, and the size of the file. Half an hour at 4K on two cores.
 """
@@ -38,8 +38,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--layers", type=int, default=300)
     parser.add_argument("--size", default="3840x2160")
-    parser.add_argument("--threads", type=int, default=0)
-    given = parser.parse_args()
+    given, more = parser.parse_known_args()
     command = [sys.executable, "-m", "lightsieve"]
     checked = subprocess.run(
         [*command, "check", str(SCENE), "--json"], capture_output=True, text=True, check=True
@@ -50,7 +49,7 @@ def main() -> None:
             [
                 *command,
                 *("render", str(SCENE), "--aa", "1", "--size", given.size, "--json"),
-                *("-t", str(given.threads), "-o", f"{folder}/many.exr"),
+                *("-o", f"{folder}/many.exr", *more),
                 *outputs(given.layers - n_there),
             ],
             stdout=subprocess.PIPE,

@@ -17,9 +17,8 @@
 namespace lightsieve {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x31544b434556534cU;  // "LSVECKT1" on little-endian machines
+constexpr std::uint64_t kMagic = 0x32544b434556534cU;  // "LSVECKT2" on little-endian machines
 constexpr std::uint32_t kRecord = 0x44524352U;
-/// States that wait to be written go to the file when they are more than this, be it time or not [bytes].
 /// Longer than any header and any bucket's film [bytes]: what claims to be larger is damage.
 constexpr std::uint64_t kLargestRecord = std::uint64_t{1} << 36U;
 
@@ -224,7 +223,7 @@ void Checkpoint::flush() {
     write_pending(true);
     // Somebody may have removed the file, with its folder perhaps: what is open has its data still.
     if (!continues_ || ::access(settings_.path.c_str(), F_OK) == 0 || errno != ENOENT) return;
-    if (!copy_open_file(file_, settings_.path)) note_problem();
+    if (!copy_open_file(file_, settings_.path)) note_problem(std::strerror(errno));
 }
 
 void Checkpoint::finish() {
@@ -269,21 +268,31 @@ bool Checkpoint::append(const std::vector<std::byte>& bytes) {
     return false;
 }
 
-void Checkpoint::note_problem() {
-    problem_ =
-        "the checkpoint \"" + settings_.path + "\" could not be written: " + std::strerror(errno);
+/// Whether the pictures still fit on the disk when what waits is written.
+bool Checkpoint::leaves_room() const {
+    if (pending_.empty() || settings_.keep_free == 0) return true;
+    std::error_code unknown;
+    const std::filesystem::path folder = std::filesystem::path(settings_.path).parent_path();
+    const std::filesystem::space_info space =
+        std::filesystem::space(folder.empty() ? "." : folder, unknown);
+    return unknown || space.available >= pending_bytes_ + settings_.keep_free;
+}
+
+void Checkpoint::note_problem(const char* why) {
+    problem_ = "the checkpoint \"" + settings_.path + "\" could not be written: " + why;
 }
 
 void Checkpoint::write_pending(bool sync) {
     if (sync) synced_ = Clock::now();
-    const auto failed = [&] {
-        note_problem();
+    const auto failed = [&](const char* why) {
+        note_problem(why);
         // Memory is for rendering: what could not be written is rendered again after a resume.
         pending_.clear();
         pending_bytes_ = 0;
     };
     if (pending_.empty() && !continues_) return;
-    if (!open_for_writing()) return failed();
+    if (!leaves_room()) return failed("the disk has no more room than the pictures need");
+    if (!open_for_writing()) return failed(std::strerror(errno));
     for (const Record& record : pending_) {
         RecordHead head{kRecord, record.key.first, record.key.second, 0, record.state.size(), 0};
         head.checksum = checksum_of(head, record.state);
@@ -292,10 +301,10 @@ void Checkpoint::write_pending(bool sync) {
         std::vector<std::byte> bytes = out.take();
         bytes.insert(bytes.end(), record.state.begin(), record.state.end());
         const std::uint64_t start = size_ + sizeof(head);
-        if (!append(bytes)) return failed();
+        if (!append(bytes)) return failed(std::strerror(errno));
         places_[record.key] = {start, record.state.size()};
     }
-    if (sync && ::fsync(file_) != 0) return failed();
+    if (sync && ::fsync(file_) != 0) return failed(std::strerror(errno));
     pending_.clear();
     pending_bytes_ = 0;
 }

@@ -27,6 +27,8 @@ struct CheckpointSettings {
     double minutes = 0;  ///< between two writes; 0: only when the render is ended
     bool resume = false;
     bool keep = false;  ///< also when the render is done: for a later one with more samples
+    /// Of the disk, for pictures [bytes]: what would not leave as much is not saved.
+    std::uint64_t keep_free = 0;
 };
 
 class Checkpoint {
@@ -73,9 +75,9 @@ class Checkpoint {
     void check_header(class ByteReader& header, int samples) const;
     /// sync  down to the disk: against more than the end of this program
     void write_pending(bool sync);
-    /// A call of the system has just failed.
-    void note_problem();
+    void note_problem(const char* why);
     [[nodiscard]] bool append(const std::vector<std::byte>& bytes);
+    [[nodiscard]] bool leaves_room() const;
     [[nodiscard]] bool open_for_writing();
     [[nodiscard]] std::vector<std::byte> header_bytes() const;
 

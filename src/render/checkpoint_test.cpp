@@ -73,6 +73,23 @@ TEST_F(CheckpointFile, TheLastStateOfABucketCounts) {
     EXPECT_EQ(Checkpoint(settings(true), kIdentity, 9).load(0, 1), bytes("second pass"));
 }
 
+TEST_F(CheckpointFile, LeavesRoomForPictures) {
+    CheckpointSettings greedy = settings(false);
+    greedy.keep_free = fs::space(folder_).capacity + 1;
+    Checkpoint file(greedy, kIdentity, 9);
+    file.save(0, 0, bytes("state"));
+    file.flush();
+    EXPECT_NE(file.problem().find("no more room than the pictures need"), std::string::npos)
+        << file.problem();
+    EXPECT_FALSE(fs::exists(path_));
+    greedy.keep_free = 1;
+    Checkpoint modest(greedy, kIdentity, 9);
+    modest.save(0, 0, bytes("state"));
+    modest.flush();
+    EXPECT_EQ(modest.problem(), "");
+    EXPECT_TRUE(fs::exists(path_));
+}
+
 TEST_F(CheckpointFile, WhateverEndsItEarlierRecordsAreGood) {
     write();
     const auto whole = static_cast<std::size_t>(fs::file_size(path_));

@@ -124,6 +124,8 @@ ScenePtr Compiler::run() {
     identify();
     find_viewer_layers();
     scene_->summary.forecast = forecast_memory(*scene_);
+    for (const std::size_t file : scene_->summary.forecast.file_bytes)
+        scene_->settings.checkpoint.keep_free += file;
     check_memory(scene_->summary.forecast, options_.max_memory, diagnostics_);
     if (diagnostics_.n_errors() > before + forgiven) return nullptr;
     note_times(seconds_between(start, Clock::now()));
@@ -184,9 +186,12 @@ void Compiler::read_settings() {
     if (!options_.scene_path.empty())
         assets_.add_folder(std::filesystem::path(options_.scene_path).parent_path().string());
     make_color_spaces();
+    // What is no number is too little.
+    const float texture_mb = option("texture_max_memory_MB", 4096.0F);
     scene_->textures = std::make_shared<TextureCache>(
-        static_cast<std::size_t>(
-            std::clamp(option("texture_max_memory_MB", 4096.0F), kLeastTextureMb, kMostTextureMb)),
+        static_cast<std::size_t>(texture_mb >= kLeastTextureMb
+                                     ? std::min(texture_mb, kMostTextureMb)
+                                     : kLeastTextureMb),
         scene_->color_spaces);
     read_log_settings();
     ignore_missing_textures_ = option("ignore_missing_textures", false);

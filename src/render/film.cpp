@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <set>
 #include <utility>
@@ -22,6 +23,34 @@ void add_color(std::array<double, 3>& sum, Color value, double factor) {
 bool is_cost(LayerSource source) {
     return source == LayerSource::RayCount || source == LayerSource::CpuTime ||
            source == LayerSource::InverseDensity;
+}
+
+/// Values of a bucket's pixels, most of which may be nothing: a bit for each, then those that have a bit set.
+template <class T>
+void put_sparse(const std::vector<T>& values, ByteWriter& out) {
+    constexpr std::size_t kRun = 64;
+    const T nothing{};
+    const auto is_nothing = [&](const T& v) { return std::memcmp(&v, &nothing, sizeof(T)) == 0; };
+    for (std::size_t begin = 0; begin < values.size(); begin += kRun) {
+        const auto run = std::span(values).subspan(begin, std::min(kRun, values.size() - begin));
+        std::uint64_t there = 0;
+        for (std::size_t i = 0; i < run.size(); ++i)
+            there |= std::uint64_t{!is_nothing(run[i])} << i;
+        out.put(there);
+        for (const T& value : run)
+            if (!is_nothing(value)) out.put(value);
+    }
+}
+
+/// Into values that are nothing. False if something is missing.
+template <class T>
+bool get_sparse(ByteReader& in, std::vector<T>& values) {
+    std::uint64_t there = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i % 64 == 0 && !in.get(there)) return false;
+        if ((there >> (i % 64) & 1U) != 0 && !in.get(values[i])) return false;
+    }
+    return true;
 }
 
 bool is_matte(LayerSource source) {
@@ -431,7 +460,7 @@ void Film::save(ByteWriter& out) const {
         ViewSums::for_each_kind(sums, [&](const auto& kind) { kind.save(out); });
         out.put(sums.slot_of);
         for (std::size_t i = 0; i < sums.n_slots; ++i)
-            out.put(sums.slots[i]);
+            put_sparse(sums.slots[i], out);
     }
 }
 
@@ -454,7 +483,7 @@ bool Film::load(ByteReader& in) {
         const std::size_t n_slots = std::exchange(sums.n_slots, 0);
         for (std::size_t i = 0; i < n_slots; ++i) {
             std::vector<LightSum>& values = slot(sums, keys[i]);
-            if (sums.n_slots != i + 1 || !in.get(values, values.size())) return false;
+            if (sums.n_slots != i + 1 || !get_sparse(in, values)) return false;
         }
     }
     return true;

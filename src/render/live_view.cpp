@@ -6,8 +6,6 @@
 namespace lightsieve {
 namespace {
 
-/// What may wait for a slow viewer [bytes].
-constexpr std::size_t kMostWaiting = std::size_t{256} << 20;
 /// How long a viewer may take nothing: while there is something to render, and when all is done [s].
 constexpr double kPatience = 10, kLastPatience = 2;
 /// How long the end of a render waits for the viewer in all [s].
@@ -28,8 +26,9 @@ std::vector<std::string> channel_names(const ImageLayer& layer) {
 
 LiveView::LiveView(const std::string& address, const std::string& name, const Region& region,
                    std::vector<ImageLayer> layers, const ColorSpace& rendering,
-                   Diagnostics& diagnostics)
+                   Diagnostics& diagnostics, std::size_t most_waiting)
     : name_(name),
+      most_waiting_(most_waiting),
       region_(region),
       layers_(std::move(layers)),
       conversion_(rendering, {Primaries::Rec709, Transfer::Linear}),
@@ -91,7 +90,7 @@ void LiveView::show(int x, int y, int width, int height,
     {
         const std::lock_guard lock(mutex_);
         if (problem_) return;
-        if (waiting_bytes_ + n * stride * sizeof(float) > kMostWaiting) {
+        if (waiting_bytes_ + n * stride * sizeof(float) > most_waiting_) {
             ++n_left_out_;
             return;
         }

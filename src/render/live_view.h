@@ -31,10 +31,11 @@ class LiveView {
     /// region     of the frame, which is the picture
     /// layers     what is shown; all of one picture
     /// rendering  space of the layers' colours
+    /// most_waiting  of what the viewer has not taken yet [bytes]
     /// throws  InputError (invalid-value): the address is none
     LiveView(const std::string& address, const std::string& name, const Region& region,
-             std::vector<ImageLayer> layers, const ColorSpace& rendering,
-             Diagnostics& diagnostics);
+             std::vector<ImageLayer> layers, const ColorSpace& rendering, Diagnostics& diagnostics,
+             std::size_t most_waiting = std::size_t{256} << 20);
     /// As `finish`.
     ~LiveView();
     LiveView(const LiveView&) = delete;
@@ -50,6 +51,7 @@ class LiveView {
     [[nodiscard]] double patience_s();
 
     std::string name_;
+    std::size_t most_waiting_;
     Region region_;
     std::vector<ImageLayer> layers_;
     ColorConversion conversion_;

@@ -58,6 +58,19 @@ TEST(Statistics, EveryKindOfRayIsOfItsKind) {
     EXPECT_GT(rays(wax, RayKind::Subsurface), 0U);
 }
 
+TEST(Statistics, ProgressKnowsTheNoiseOfWhatIsDone) {
+    const TestScene scene(room(32, " bucket_size 16"));
+    std::vector<double> told;
+    RenderControl control;
+    control.progress = [&](const RenderProgress& now) { told.push_back(now.noise); };
+    Diagnostics diagnostics;
+    const RenderResult result = render_scene(scene.scene(), control, diagnostics);
+    ASSERT_GE(told.size(), 4U);
+    ASSERT_FALSE(result.noise.empty());
+    EXPECT_NEAR(told.back(), result.noise[0].error / result.noise[0].level, 1e-9);
+    EXPECT_GT(told.back(), 0);
+}
+
 TEST(Statistics, TimesOfAllStagesAreThere) {
     const TestScene scene(room(8));
     const StageTimes& times = scene.scene().summary.times;

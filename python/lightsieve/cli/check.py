@@ -181,6 +181,7 @@ def command(
         lpe_standard=lpe_standard,
         lpe_table=lpe_table or "",
         max_memory=max_memory or 0,
+        checkpoint=0,  # as a render would: it counts in the forecast
     )
     summary = compiled.summary() if compiled.usable else None
     found = None
