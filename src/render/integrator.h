@@ -369,8 +369,9 @@ class Integrator {
     // Of the current vertex.
     std::array<Channel, kMaxChannels> channels_;
     std::size_t n_channels_ = 0;
-    std::array<Color, kMaxChannels> reach_;   ///< throughput that may use each channel
-    std::array<Color, kMaxChannels> values_;  ///< see cleared_values
+    std::array<Color, kMaxChannels> carries_;  ///< what each of several scatterers may carry on
+    std::array<Color, kMaxChannels> reach_;    ///< throughput that may use each channel
+    std::array<Color, kMaxChannels> values_;   ///< see cleared_values
     /// By scatterer: the closures of the set, then its subsurface closures.
     std::array<std::uint8_t, kMaxChannels> channel_of_;
     /// How many rays each scatterer sends on, on average: where there is one ray, the probability of drawing it.

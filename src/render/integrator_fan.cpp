@@ -133,7 +133,7 @@ auto Integrator<Tracker>::sort_by_kind() -> std::array<KindSum, kGiKinds> {
         if (!(probability_[i] > 0)) continue;
         KindSum& sum = out[static_cast<std::size_t>(kind_of_[i])];
         sum.probability += probability_[i];
-        sum.carries += reach_[channel_of_[i]] * albedo_of(i);
+        sum.carries += carries_[i];
         sum.channel = &channel;
         sum.goes_on = sum.goes_on || !leads_nowhere(channel);
     }

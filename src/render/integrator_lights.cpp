@@ -82,8 +82,11 @@ void Integrator<Tracker>::ask_light(const Surface& surface, std::uint32_t index,
             ? share_of_collisions(vertex_ray_, *vertex_part_, surface.t, index, samples)
             : 1;
     std::array<float, kMaxChannels> weights;
+    const float of_first = alone ? part : part * power_heuristic(pdf_light, pdf_rays[0]);
     for (std::size_t c = 0; c < n_channels_; ++c)
-        weights[c] = alone ? part : part * power_heuristic(pdf_light, pdf_rays[mixture_[c]]);
+        weights[c] = alone || mixture_[c] == 0
+                         ? of_first
+                         : part * power_heuristic(pdf_light, pdf_rays[mixture_[c]]);
     // What the sample stands for, be it one of several of its light or picked among many lights.
     const Color stands_for = sample.radiance * (1 / (sample.pdf * std::min(samples, 1.0F)));
     const float kept = low_light_survival(value, weights, light, stands_for);

@@ -50,8 +50,8 @@ void Integrator<Tracker>::choose_probabilities() {
         return;
     }
     for (std::size_t i = 0; i < n; ++i) {
-        probability_[i] =
-            is_enabled(i) ? std::max(0.0F, luminance(reach[channel_of_[i]] * albedo_of(i))) : 0;
+        carries_[i] = is_enabled(i) ? reach[channel_of_[i]] * albedo_of(i) : kBlack;
+        probability_[i] = std::max(0.0F, luminance(carries_[i]));
         total += probability_[i];
     }
     const bool may_pass = path_.n_transparent < scene_.settings.auto_transparency_depth;
