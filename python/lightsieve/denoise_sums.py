@@ -30,8 +30,7 @@ BARRIER = 1e-4
 # What a sum may be off, as a part of its parts: about the rounding of 32-bit floats.
 TOLERANCE = 1e-7
 MAX_STEPS = 40
-# With a barrier like this the values hardly matter any more. Only sums that contradict one another
-# are still open then, and they stay so.
+# With a barrier like this the values hardly matter any more: what is still open stays so.
 MAX_BARRIER = 1e6
 # Pixels that are solved together: their small matrices stay in the processor's cache.
 CHUNK = 4096
@@ -64,8 +63,31 @@ def parse_sums(text: str) -> list[Sum]:
     return [Sum(s[0], tuple(s[1].split(" + "))) for s in sides if len(s) == 2]
 
 
+def rows_of(sums: Sequence[Sum], names: Sequence[str]) -> Array:
+    """Sums as linear equations `matrix @ layers == 0`, a row each.
+
+    Args:
+        sums: Of layers that are all in `names`.
+        names: The layers, in the order of the columns.
+
+    Returns:
+        Shape (sums, names).
+
+    Example:
+        >>> rows_of([Sum("a", ("b", "c"))], ["a", "b", "c"]).tolist()
+        [[-1.0, 1.0, 1.0]]
+    """
+    column = {name: i for i, name in enumerate(names)}
+    rows = np.zeros((len(sums), len(names)))
+    for row, (whole, parts) in zip(rows, sums, strict=True):
+        row[column[whole]] -= 1
+        for part in parts:
+            row[column[part]] += 1
+    return rows
+
+
 def equations(sums: Sequence[Sum], names: Sequence[str]) -> Array:
-    """Sums as linear equations `matrix @ layers == 0`; those that follow from others are left out.
+    """Sums as few equations as say the same: what `reconcile` takes.
 
     Args:
         sums: Of layers that are all in `names`.
@@ -76,18 +98,35 @@ def equations(sums: Sequence[Sum], names: Sequence[str]) -> Array:
 
     Example:
         >>> equations([Sum("a", ("b", "c"))], ["a", "b", "c"]).tolist()
-        [[-1.0, 1.0, 1.0]]
+        [[1.0, -1.0, -1.0]]
     """
-    column = {name: i for i, name in enumerate(names)}
-    rows: list[Array] = []
-    for whole, parts in sums:
-        row = np.zeros(len(names))
-        row[column[whole]] -= 1
-        for part in parts:
-            row[column[part]] += 1
-        if np.linalg.matrix_rank(np.array([*rows, row])) > len(rows):
-            rows.append(row)
-    return np.array(rows).reshape(len(rows), len(names))
+    kept: list[Array] = []
+    for row in rows_of(sums, names):
+        if np.linalg.matrix_rank(np.array([*kept, row])) > len(kept):
+            kept.append(row)
+    return _reduced(np.array(kept).reshape(len(kept), len(names)))
+
+
+def _reduced(matrix: Array) -> Array:
+    """The same equations, each of the greatest wholes in one of them alone (Gauss and Jordan).
+
+    What two sums of the beauty have in common is much brighter than what they differ in; as long
+    as it stood in both, too few digits would be left for the rest.
+    """
+    out, row = matrix.copy(), 0
+    for column in np.argsort(-(matrix < 0).sum(axis=0), kind="stable"):
+        if row == len(out):
+            break
+        best = row + int(np.argmax(np.abs(out[row:, column])))
+        if abs(out[best, column]) < 0.5:
+            continue
+        out[[row, best]] = out[[best, row]]
+        out[row] /= out[row, column]
+        for other in range(len(out)):
+            if other != row:
+                out[other] -= out[other, column] * out[row]
+        row += 1
+    return np.asarray(np.round(out, 9) + 0.0)
 
 
 def box_mean(picture: npt.NDArray[np.floating], radius: int) -> Array:
@@ -204,6 +243,27 @@ def reconcile(values: Array, errors: Array, matrix: Array) -> Array:
         out[:, some] = scale * _reconciled(
             out[:, some] / scale, errors[:, some] / scale**2, matrix
         )
+    return out
+
+
+def without_leftovers(x: Array, rows: Array) -> Array:
+    """Makes light black that is too faint beside the rest of its pixel to have been added up.
+
+    Args:
+        x: Layers, shape (layers, pixels), not negative.
+        rows: All sums, as `rows_of` gives them.
+
+    Returns:
+        The same shape; every sum holds.
+
+    Example:
+        >>> rows = rows_of([Sum("a", ("b", "c"))], ["a", "b", "c"])
+        >>> without_leftovers(np.array([[3.0, 2.1], [1.0, 1.0], [2.0, 1.0]]), rows).tolist()
+        [[3.0, 0.0], [1.0, 0.0], [2.0, 0.0]]
+    """
+    out = x.copy()
+    while (off := np.abs(rows @ out) > 10 * TOLERANCE * (np.abs(rows) @ out)).any():
+        out[np.abs(rows).T @ off > 0] = 0
     return out
 
 

@@ -18,7 +18,16 @@ import numpy.typing as npt
 from lightsieve import _core, exr, lpe
 from lightsieve._core import ExrInfo
 from lightsieve.denoise_oidn import Denoiser, Picture, Quality
-from lightsieve.denoise_sums import Sum, box_mean, equations, parse_sums, reconcile, squared_error
+from lightsieve.denoise_sums import (
+    Sum,
+    box_mean,
+    equations,
+    parse_sums,
+    reconcile,
+    rows_of,
+    squared_error,
+    without_leftovers,
+)
 from lightsieve.errors import LightsieveError, without_place
 from lightsieve.frame import Frame, Layer
 
@@ -342,14 +351,15 @@ def _bring_together(frame: Frame, cleaned: dict[str, Picture], sums: list[Sum]) 
             if all(cleaned[name].shape[2] == n_channels for name in (s.whole, *s.parts))
         ]
         names = sorted({name for s in alike for name in (s.whole, *s.parts)})
-        matrix = equations(alike, names)
+        matrix, every = equations(alike, names), rows_of(alike, names)
         for top in range(0, frame.height if names else 0, BAND_ROWS):
             rows = slice(top, top + BAND_ROWS)
-            together = reconcile(
+            found = reconcile(
                 np.stack([cleaned[n][rows].astype(np.float64).ravel() for n in names]),
                 np.stack([errors[n][rows].astype(np.float64).ravel() ** 2 for n in names]),
                 matrix,
             )
+            together = without_leftovers(found, every)
             for name, values in zip(names, together, strict=True):
                 cleaned[name][rows] = values.reshape(cleaned[name][rows].shape)
 

@@ -15,7 +15,9 @@ from lightsieve.denoise_sums import (
     equations,
     parse_sums,
     reconcile,
+    rows_of,
     squared_error,
+    without_leftovers,
     without_light,
 )
 
@@ -204,3 +206,17 @@ def test_sums_that_contradict_what_is_dark_end_all_the_same() -> None:
     sums = equations([Sum("a", ("b",)), Sum("a", ("c",))], ["a", "b", "c"])
     x = reconcile(np.array([[1.0], [1.0], [0.0]]), np.array([[1.0], [1.0], [0.0]]), sums)
     assert (x == 0).all()
+
+
+def test_faint_layers_beside_a_lamp_add_up_or_are_black() -> None:
+    """A lamp in the pixel leaves few digits for layers that are a billion times fainter."""
+    rng = np.random.default_rng(5)
+    atoms = 10 ** rng.uniform(-10, -8, (ATOMS, 3000))
+    atoms[8:] = rng.uniform(0.5, 1, (2, 3000))
+    truth = MEMBERS @ atoms
+    values = truth * np.exp(0.3 * rng.normal(size=truth.shape))
+    rows = rows_of(SUMS, NAMES)
+    x = without_leftovers(reconcile(values, (0.3 * truth) ** 2, MATRIX), rows)
+    assert worst_part(x, rows) <= 1e-6
+    assert (x == 0).any(axis=0).mean() < 0.05
+    assert (x[NAMES.index("RGBA")] > 0.5).all()
