@@ -174,29 +174,39 @@ Verdict check_lobes_through_one_bounce() {
     return all.verdict();
 }
 
+namespace {
+
+/// rays  of each kind, squared: 1 is one ray that all lobes share, with more each kind has its own
+Verdict check_depth_limits(bool diffuse_goes_on, int rays) {
+    const std::string n = std::to_string(rays);
+    const TestScene scene(
+        bounce_scene((diffuse_goes_on ? " GI_diffuse_depth 1\n GI_specular_depth 0"
+                                      : " GI_diffuse_depth 0\n GI_specular_depth 1") +
+                     ("\n GI_diffuse_samples " + n) + "\n GI_specular_samples " + n),
+        in_memory(with_suffix(kReflecting, "_indirect")));
+    const Picture picture = render(scene);
+    const LobeSums truth = bounce_truth(scene);
+    const std::vector<std::string> diffuse{"diffuse"}, others{"specular", "coat", "sheen"};
+    const std::vector<std::string>&bright = diffuse_goes_on ? diffuse : others,
+          &dark = diffuse_goes_on ? others : diffuse;
+    All all;
+    all << compare(picture, truth, bright, "_indirect", kWallRadiance);
+    for (const std::string& aov : dark)
+        all << check_black(picture, aov + "_indirect");
+    Color whole;
+    for (const std::string& aov : bright)
+        if (aov != "sheen") whole += truth.at(aov) * kWallRadiance;
+    all << check_mean(picture, "RGBA", whole, kGridError);
+    return all.verdict();
+}
+
+}  // namespace
+
 Verdict check_depth_limits_by_lobe() {
     All all;
-    for (const bool diffuse_goes_on : {false, true}) {
-        const std::string options = diffuse_goes_on ? " GI_diffuse_depth 1\n GI_specular_depth 0"
-                                                    : " GI_diffuse_depth 0\n GI_specular_depth 1";
-        const TestScene scene(bounce_scene(options),
-                              in_memory(with_suffix(kReflecting, "_indirect")));
-        const Picture picture = render(scene);
-        const LobeSums truth = bounce_truth(scene);
-        const std::vector<std::string> bright =
-            diffuse_goes_on ? std::vector<std::string>{"diffuse"}
-                            : std::vector<std::string>{"specular", "coat", "sheen"};
-        const std::vector<std::string> dark =
-            diffuse_goes_on ? std::vector<std::string>{"specular", "coat", "sheen"}
-                            : std::vector<std::string>{"diffuse"};
-        all << compare(picture, truth, bright, "_indirect", kWallRadiance);
-        for (const std::string& aov : dark)
-            all << check_black(picture, aov + "_indirect");
-        Color whole;
-        for (const std::string& aov : bright)
-            if (aov != "sheen") whole += truth.at(aov) * kWallRadiance;
-        all << check_mean(picture, "RGBA", whole, kGridError);
-    }
+    for (const bool diffuse_goes_on : {false, true})
+        for (const int rays : {1, 2})
+            all << check_depth_limits(diffuse_goes_on, rays);
     return all.verdict();
 }
 
