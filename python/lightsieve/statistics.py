@@ -141,10 +141,11 @@ class StatisticsFile:
             self._part.touch()
             self._part.unlink()
             if append and path.exists():
-                self._renders = json.loads(path.read_text())
+                held = json.loads(path.read_text())
+                self._renders = held if isinstance(held, dict) else {"": held}
         except OSError as error:
             raise self._refused(error) from None
-        except ValueError:
+        except (ValueError, RecursionError):
             self._renders = {"": None}
         if not all(name.startswith("render ") for name in self._renders):
             raise LightsieveError(

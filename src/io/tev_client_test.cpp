@@ -1,15 +1,12 @@
 // Packets for tev, byte by byte, and what becomes of a viewer that is not there, goes away or sleeps.
 #include "io/tev_client.h"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <cstring>
 
 #include "core/error.h"
+#include "io/testing/listening_socket.h"
 
 namespace lightsieve {
 namespace {
@@ -28,30 +25,9 @@ Code code_of(const std::string& address) {
     return Code::FileFormat;
 }
 
-/// A socket that listens at a port of its own and never reads.
-class Listener {
-  public:
-    Listener() : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-        ::sockaddr_in at{};
-        at.sin_family = AF_INET;
-        at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        ::socklen_t size = sizeof(at);
-        EXPECT_EQ(::bind(socket_, reinterpret_cast<::sockaddr*>(&at), size), 0);
-        EXPECT_EQ(::listen(socket_, 1), 0);
-        ::getsockname(socket_, reinterpret_cast<::sockaddr*>(&at), &size);
-        address = {"127.0.0.1", std::to_string(ntohs(at.sin_port))};
-    }
-    ~Listener() { stop(); }
-    Listener(const Listener&) = delete;
-    Listener& operator=(const Listener&) = delete;
-    void stop() {
-        if (socket_ >= 0) ::close(socket_);
-        socket_ = -1;
-    }
-    NetworkAddress address;
-
-  private:
-    int socket_;
+/// Listens and never reads.
+struct Listener : testing::ListeningSocket {
+    NetworkAddress address{host(), port()};
 };
 
 TEST(Tev, Addresses) {

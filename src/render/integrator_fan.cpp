@@ -254,7 +254,8 @@ bool Integrator<Tracker>::fan_out(const Surface& surface, Ray& ray) {
 /// Puts a path aside for each ray. The path stays as it is.
 template <class Tracker>
 void Integrator<Tracker>::split(const Surface& surface, const Ray& ray, const RayCounts& counted) {
-    const auto& [rays, n, total, last, left] = counted;
+    const auto& rays = counted.rays;
+    const auto& n = counted.n;
     before_.path = path_;
     tracker_.save(before_.terms);
     for (std::size_t k = 0; k < kGiKinds; ++k)

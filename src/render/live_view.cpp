@@ -11,17 +11,6 @@ constexpr double kPatience = 10, kLastPatience = 2;
 /// How long the end of a render waits for the viewer in all [s].
 constexpr double kLongestFarewell = 10;
 
-/// As in an EXR file: the beauty's are bare.
-std::vector<std::string> channel_names(const ImageLayer& layer) {
-    const std::string letters = layer.aov_type.starts_with("VECTOR") ? "XYZ" : "RGBA";
-    if (layer.n_channels == 1) return {layer.name};
-    const bool bare = layer.name == "RGBA" || layer.name == "RGB";
-    std::vector<std::string> out;
-    for (std::size_t c = 0; c < layer.n_channels; ++c)
-        out.push_back((bare ? "" : layer.name + ".") + letters[c]);
-    return out;
-}
-
 }  // namespace
 
 LiveView::LiveView(const std::string& address, const std::string& name, const Region& region,
@@ -34,7 +23,7 @@ LiveView::LiveView(const std::string& address, const std::string& name, const Re
       conversion_(rendering, {Primaries::Rec709, Transfer::Linear}),
       diagnostics_(diagnostics) {
     for (const ImageLayer& layer : layers_)
-        for (std::string& channel : channel_names(layer))
+        for (std::string& channel : channel_names(layer, is_beauty(layer)))
             channels_.push_back(std::move(channel));
     const NetworkAddress where = parse_network_address(address);
     try {

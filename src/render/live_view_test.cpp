@@ -1,58 +1,42 @@
 // A live view and its viewer: rendering never waits, whatever the viewer does, and people are told.
 #include "render/live_view.h"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include "core/error.h"
+#include "io/testing/listening_socket.h"
 
 namespace lightsieve {
 namespace {
 
 constexpr int kSide = 64, kBuckets = 1000;
 
-/// Listens at a port of its own; reads when it is told to, and counts.
+/// Reads when it is told to, and counts.
 class Viewer {
   public:
-    Viewer() : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-        ::sockaddr_in at{};
-        at.sin_family = AF_INET;
-        at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        ::socklen_t size = sizeof(at);
-        EXPECT_EQ(::bind(socket_, reinterpret_cast<::sockaddr*>(&at), size), 0);
-        EXPECT_EQ(::listen(socket_, 1), 0);
-        ::getsockname(socket_, reinterpret_cast<::sockaddr*>(&at), &size);
-        address = "127.0.0.1:" + std::to_string(ntohs(at.sin_port));
-    }
     ~Viewer() {
         if (reader_.joinable()) reader_.join();
-        ::close(socket_);
     }
-    Viewer(const Viewer&) = delete;
-    Viewer& operator=(const Viewer&) = delete;
     void read() {
         reader_ = std::thread([this] {
-            const int connection = ::accept(socket_, nullptr, nullptr);
+            const int connection = socket_.accept();
             std::vector<char> part(1U << 16U);
             for (ssize_t n = 0; (n = ::recv(connection, part.data(), part.size(), 0)) > 0;)
-                n_bytes += static_cast<std::size_t>(n);
+                n_bytes_ += static_cast<std::size_t>(n);
             ::close(connection);
         });
     }
     /// All that was sent has come.
     [[nodiscard]] std::size_t count() {
         reader_.join();
-        return n_bytes;
+        return n_bytes_;
     }
-    std::string address;
+    [[nodiscard]] std::string address() const { return socket_.host() + ":" + socket_.port(); }
 
   private:
-    int socket_;
+    testing::ListeningSocket socket_;
     std::thread reader_;
-    std::size_t n_bytes = 0;
+    std::size_t n_bytes_ = 0;
 };
 
 ImageLayer beauty() {
@@ -75,7 +59,7 @@ TEST(LiveView, ASlowViewerMissesPartsAndTheRenderDoesNotWait) {
     Viewer viewer;
     Diagnostics diagnostics;
     {
-        LiveView view(viewer.address, "a.exr", {0, 0, kSide - 1, kSide - 1}, {beauty()},
+        LiveView view(viewer.address(), "a.exr", {0, 0, kSide - 1, kSide - 1}, {beauty()},
                       kRenderingSpace, diagnostics, std::size_t{1} << 20U);
         // Returns though nobody reads: more than the system and we keep for the viewer.
         show_all(view);
@@ -94,7 +78,7 @@ TEST(LiveView, AViewerThatReadsGetsAll) {
     viewer.read();
     Diagnostics diagnostics;
     {
-        LiveView view(viewer.address, "a.exr", {0, 0, kSide - 1, kSide - 1}, {beauty()},
+        LiveView view(viewer.address(), "a.exr", {0, 0, kSide - 1, kSide - 1}, {beauty()},
                       kRenderingSpace, diagnostics);
         show_all(view);
     }

@@ -39,6 +39,13 @@ struct ImageLayer {
     std::size_t n_channels = 0;  ///< 1 to 4, in the order of the buffers
 };
 
+/// Names of a layer's channels in its file: "diffuse.R", "N.X", "Z".
+///
+/// bare  without the layer's name: "R"; layers of one channel and of other types than colours keep it
+[[nodiscard]] std::vector<std::string> channel_names(const ImageLayer& layer, bool bare);
+/// Whether a layer is a beauty, whose channels are bare in every file.
+[[nodiscard]] bool is_beauty(const ImageLayer& layer);
+
 using MetadataValue = std::variant<int, float, std::string, std::vector<float>>;
 
 /// Everything a driver needs to know before the first pixel.

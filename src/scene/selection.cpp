@@ -336,10 +336,14 @@ class SelectionParser {
         if (end == std::string_view::npos)
             fail("this regular expression does not end", at_, "add the quote");
         if (end - begin > kMaxRegex) fail("this regular expression is too long", at_);
-        at_ = end + 1;
         Term out;
         out.kind = Kind::Regex;
         out.text = text_.substr(begin, end - begin);
+        // Counts within counts make expressions of a few characters as large as a hundred thousand.
+        if (const std::size_t count = out.text.find('{'); count != std::string::npos)
+            fail("regular expressions with counts are not taken", begin + count,
+                 "write the part as often as it is to be there, or with * or +");
+        at_ = end + 1;
         try {
             out.regex = std::make_shared<const std::regex>(out.text, kRegexSyntax);
         } catch (const std::regex_error&) {

@@ -4,7 +4,7 @@
 //     *.(@node=='polymesh')            a type of node
 //     car^*.(visibility==255 and matte==off)    values of parameters or user data, here of nodes in the procedural car
 //     * and not (ground or #trees)     combined; #NAME is a collection
-//     r'tree_(small|tall)[0-9]*'       a regular expression, for the whole name
+//     r'tree_(small|tall)[0-9]*'       a regular expression without counts, for the whole name
 //
 // A name is compared with the pattern as the file writes it and with its path through procedurals, PROCEDURAL^NAME or
 // PROCEDURAL/NAME. Words of a row (`a b`) mean: any of them. Where Arnold's own rules are not public we take what its

@@ -161,6 +161,9 @@ TEST(Selections, SayWhereTheyAreWrong) {
     EXPECT_EQ(problem("*.(@node=='x)"), "this text does not end (column 11 of \"*.(@node=='x)\")");
     EXPECT_EQ(problem("*.(id<'x')"), "a number is expected here (column 7 of \"*.(id<'x')\")");
     EXPECT_EQ(problem("a r'(b"), "this regular expression does not end (column 3 of \"a r'(b\")");
+    EXPECT_EQ(problem("r'((a{90}){90}){9}'"),
+              "regular expressions with counts are not taken (column 6 of "
+              "\"r'((a{90}){90}){9}'\")");
     EXPECT_EQ(problem("r'(b'"), "this is no regular expression (column 3 of \"r'(b'\")");
     EXPECT_TRUE(problem("r'" + std::string(300, 'a') + "'")
                     .starts_with("this regular expression is too long"));

@@ -100,11 +100,14 @@ def test_a_statistics_file_that_cannot_be_is_an_error_only_if_asked_for(
     of_scene = run("render", still.name, *FAST, "--set", 'options.stats_file="missing/s.json"')
     assert of_scene.code == 0
     assert 'warning: options.stats_file: cannot write "missing/s.json"' in of_scene.err
-    (tmp_path / "other.json").write_text('{"a": 1}')
     options = ("options.stats_file=other.json", "options.stats_mode=append")
-    foreign = run("render", still.name, *FAST, "--set", options[0], "--set", options[1])
-    assert '"other.json" holds no statistics to go on with' in foreign.err
-    assert (tmp_path / "other.json").read_text() == '{"a": 1}'
+    for held in ('{"a": 1}', "[1]", "[[1]]", "null", "3", "[" * 100_000, "{", "\udcff"):
+        (tmp_path / "other.json").write_text(held, errors="surrogateescape")
+        foreign = run("render", still.name, *FAST, "--set", options[0], "--set", options[1])
+        assert '"other.json" holds no statistics to go on with' in foreign.err, held[:9]
+        assert foreign.code == 0, "the picture is there all the same"
+        kept = (tmp_path / "other.json").read_bytes()
+        assert kept == held.encode(errors="surrogateescape")
 
 
 def test_python_writes_statistics_too(still: Path, tmp_path: Path) -> None:

@@ -32,6 +32,11 @@ def _remember_json(wanted: bool) -> bool:
     return wanted
 
 
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")]
+Threads = Annotated[
+    int,
+    typer.Option("-t", "--threads", min=0, metavar="N", help="0: as many as the machine has."),
+]
 Json = Annotated[
     bool,
     typer.Option(

@@ -43,11 +43,8 @@ def command(
     quality: Annotated[
         Literal["high", "balanced", "fast"], typer.Option(help="`fast` is for previews.")
     ] = "high",
-    threads: Annotated[
-        int,
-        typer.Option("-t", "--threads", min=0, metavar="N", help="0: as many as the machine has."),
-    ] = 0,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")] = False,
+    threads: _output.Threads = 0,
+    quiet: _output.Quiet = False,
     json: _output.Json = False,
 ) -> None:
     """Take the noise out of a file's light so that its layers still add up.

@@ -148,10 +148,7 @@ def command(
             show_default=False,
         ),
     ] = None,
-    threads: Annotated[
-        int,
-        typer.Option("-t", "--threads", min=0, metavar="N", help="0: as many as the machine has."),
-    ] = 0,
+    threads: _output.Threads = 0,
     seed: Annotated[
         int | None,
         typer.Option(
@@ -262,7 +259,7 @@ def command(
             show_default=False,
         ),
     ] = None,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")] = False,
+    quiet: _output.Quiet = False,
     verbosity: Annotated[
         int | None,
         typer.Option(

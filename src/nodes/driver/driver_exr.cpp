@@ -68,28 +68,6 @@ bool is_uint(const ImageLayer& layer) {
     return layer.aov_type == "UINT" || layer.aov_type == "INT";
 }
 
-/// ".R", ".G", ...; one empty suffix for layers that are one channel.
-std::vector<std::string> suffixes(const ImageLayer& layer) {
-    const std::string letters = layer.aov_type.starts_with("VECTOR") ? "XYZ" : "RGBA";
-    if (layer.n_channels == 1) return {""};
-    std::vector<std::string> out;
-    for (std::size_t c = 0; c < layer.n_channels; ++c)
-        out.push_back(std::string(".") + letters[c]);
-    return out;
-}
-
-/// The full channel names of a layer. The beauty, and a colour layer that is alone, have bare R, G, B, A.
-std::vector<std::string> channel_names(const ImageLayer& layer, bool alone,
-                                       bool preserve_layer_name) {
-    const bool is_rgb = layer.aov_type == "RGB" || layer.aov_type == "RGBA";
-    const bool bare =
-        is_rgb && (layer.name == "RGBA" || layer.name == "RGB" || (alone && !preserve_layer_name));
-    std::vector<std::string> names;
-    for (const std::string& suffix : suffixes(layer))
-        names.push_back(bare ? suffix.substr(1) : layer.name + suffix);
-    return names;
-}
-
 /// Numbers separated by blanks; empty if there is anything else or not `n` of them.
 std::vector<float> read_floats(std::istream& in, std::size_t n) {
     std::vector<float> values;
@@ -173,6 +151,12 @@ class ExrDriver final : public Driver {
     [[nodiscard]] bool close(Diagnostics& diagnostics) override;
 
   private:
+    /// The beauty, and a colour layer that is alone, have bare R, G, B, A.
+    [[nodiscard]] std::vector<std::string> names_of(const ImageLayer& layer,
+                                                    const ImageHeader& header) const {
+        const bool alone = header.layers.size() == 1 && !node_.preserve_layer_name;
+        return channel_names(layer, alone || is_beauty(layer));
+    }
     [[nodiscard]] ExrWriteSpec make_spec(const ImageHeader& header) const;
     [[nodiscard]] bool names_are_distinct(const ImageHeader& header,
                                           Diagnostics& diagnostics) const;
@@ -212,8 +196,7 @@ ExrWriteSpec ExrDriver::make_spec(const ImageHeader& header) const {
                                   : half         ? ExrPixelType::Half
                                                  : ExrPixelType::Float;
         if (spec.parts.empty() || node_.multipart) spec.parts.push_back({layer.name, {}});
-        for (std::string& name :
-             channel_names(layer, header.layers.size() == 1, node_.preserve_layer_name))
+        for (std::string& name : names_of(layer, header))
             spec.parts.back().channels.push_back({std::move(name), type});
         describe_exr_layer(layer, spec.attributes);
     }
@@ -248,8 +231,7 @@ OutputForecast ExrDriver::forecast(const ImageHeader& header) const {
 bool ExrDriver::names_are_distinct(const ImageHeader& header, Diagnostics& diagnostics) const {
     std::map<std::string, std::string> owner;
     for (const ImageLayer& layer : header.layers) {
-        for (const std::string& name :
-             channel_names(layer, header.layers.size() == 1, node_.preserve_layer_name)) {
+        for (const std::string& name : names_of(layer, header)) {
             const auto [it, added] = owner.emplace(name, layer.name);
             if (added) continue;
             diagnostics.error(Code::OutputLayers,
