@@ -373,6 +373,27 @@ TEST(Lobe, ThinTransmissionIsStraightWhenSmooth) {
     EXPECT_EQ(s.pdf, 1);
 }
 
+TEST(Lobe, SheetsTurnLightTwice) {
+    // Two facets of independent lean, each turning by (ior - 1) times its slope: how often the sum is small.
+    constexpr float kAlpha = 0.01F, kIor = 1.6F, kNear = 0.2F * kAlpha;
+    constexpr int kTurns = 400'000;
+    Random random(11);
+    const auto slope = [&] {
+        const float u = random.unit(), phi = 2 * kPi * random.unit();
+        const float length = kAlpha * std::sqrt(u / (1 - u));
+        return Vec2f{length * std::cos(phi), length * std::sin(phi)};
+    };
+    int n_near = 0;
+    for (int i = 0; i < kTurns; ++i) {
+        const Vec2f a = slope(), b = slope();
+        n_near += (kIor - 1) * std::hypot(a.x + b.x, a.y + b.y) < kNear;
+    }
+    // A lobe of width w that mirrors turns by 2 w sqrt(u / (1 - u)).
+    const float width = ThinTransmit::through_sheet(GgxAlpha(kAlpha), kIor).alpha.x;
+    const float expected = square(kNear) / (square(kNear) + square(2 * width));
+    EXPECT_NEAR(static_cast<float>(n_near) / kTurns, expected, 0.03F * expected);
+}
+
 TEST(Lobe, SmoothLobesAreDeltas) {
     EXPECT_TRUE(delta(DielectricReflect(GgxAlpha::from_roughness(0), 1.5F)));
     EXPECT_FALSE(delta(DielectricReflect(GgxAlpha::from_roughness(0.1F), 1.5F)));

@@ -4,6 +4,12 @@
 
 namespace lightsieve {
 
+ThinTransmit ThinTransmit::through_sheet(GgxAlpha interfaces, float ior) noexcept {
+    constexpr float kSqrt3 = 1.7320508F;
+    const float scale = 0.5F * kSqrt3 * std::abs(ior - 1);
+    return ThinTransmit({interfaces.x * scale, interfaces.y * scale});
+}
+
 LobeEval ThinTransmit::eval(Vec3f wo, Vec3f wi) const noexcept {
     if (!(wi.z < 0) || alpha.smooth()) return {};
     return ggx_eval_reflection(wo, {wi.x, wi.y, -wi.z}, alpha,

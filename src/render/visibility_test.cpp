@@ -303,7 +303,7 @@ TEST(LightMultipliers, TransmissionHidesLightsBehindGlass) {
     const auto with = [](std::string_view light) {
         return render(frame_text(8, 8, 2, ortho_camera({0, 0, 0}, {0, 1, 0}, 1, {0, 0, 1})) +
                           node("standard_surface", "pane",
-                               " base 0\n specular 0\n thin_walled on\n transmission 1\n "
+                               " base 0\n specular_IOR 1\n thin_walled on\n transmission 1\n "
                                "specular_roughness 0\n transmission_color 0.5 1 1") +
                           floor("glass", 1, 2, "pane") +
                           square_light("key", 2, 1, " intensity 4\n" + std::string(light)),

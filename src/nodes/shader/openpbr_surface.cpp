@@ -173,7 +173,7 @@ class Layering {
                 (transmission_ * (tints_inside ? kWhite : positive(s_.transmission_color)));
             const LobeModel model =
                 s_.geometry_thin_walled
-                    ? LobeModel(ThinTransmit())
+                    ? LobeModel(ThinTransmit::through_sheet(specular_alpha(), s_.specular_ior))
                     : LobeModel(DielectricTransmit(specular_alpha(), index_.refracting()));
             out_.add(kTransmission, model, weight, specular_frame().index, s_.caustics);
             if (!s_.caustics) out_.transmit_shadow(weight);

@@ -131,15 +131,18 @@ class Layering {
     }
 
     /// specular * specular_color * spec_brdf + (1 - specular * specular_color * R) * ...
+    /// Through a sheet the index alone decides: with specular 0, too, it darkens what is behind it by 1 - R
+    /// (AiMicrofacetThinWallRefractionBSDF takes the index and has its own Fresnel factor).
     void add_specular() {
         const Color weight = positive(s_.specular) * positive(s_.specular_color);
-        if (is_black(weight) || is_black(left_)) return;
+        if (is_black(left_) || (is_black(weight) && !is_sheet())) return;
         const GgxAlpha alpha = specular_alpha(roughness(0));
         const LobeModel model = has_film() ? filmed(alpha, Color::grey(s_.specular_IOR), kBlack)
                                            : dielectric_reflection(alpha, reflecting_ior());
         const OrientedFrame frame = specular_frame();
         if (!inside_ || s_.internal_reflections)
             out_.add(kSpecular, model, left_ * weight, frame.index, s_.caustics);
+        if (is_sheet()) through_sheet_ = left_ * complement(kWhite, model, frame.wo);
         left_ *= complement(weight, model, frame.wo);
     }
 
@@ -147,14 +150,15 @@ class Layering {
     void add_transmission() {
         if (transmission_ > 0 && !is_black(left_)) {
             const bool tints_inside = s_.transmission_depth > 0 && !s_.thin_walled;
-            const Color tint = tints_inside ? kWhite : positive(s_.transmission_color);
-            const Color weight = left_ * (transmission_ * tint);
+            const Color tint =
+                transmission_ * (tints_inside ? kWhite : positive(s_.transmission_color));
             const GgxAlpha alpha = specular_alpha(roughness(s_.transmission_extra_roughness));
             const LobeModel model =
-                s_.thin_walled ? LobeModel(ThinTransmit())
-                               : LobeModel(DielectricTransmit(alpha, index_.refracting()));
-            out_.add(kTransmission, model, weight, specular_frame().index, s_.caustics);
-            if (!s_.caustics) out_.transmit_shadow(weight);
+                is_sheet() ? LobeModel(ThinTransmit::through_sheet(alpha, s_.specular_IOR))
+                           : LobeModel(DielectricTransmit(alpha, index_.refracting()));
+            out_.add(kTransmission, model, (is_sheet() ? through_sheet_ : left_) * tint,
+                     specular_frame().index, s_.caustics);
+            if (!s_.caustics) out_.transmit_shadow(left_ * tint);
         }
         left_ *= 1 - transmission_;
     }
@@ -213,6 +217,8 @@ class Layering {
     [[nodiscard]] GgxAlpha specular_alpha(float r) const {
         return GgxAlpha::from_roughness(r, s_.specular_anisotropy);
     }
+    /// Glass without thickness.
+    [[nodiscard]] bool is_sheet() const { return s_.thin_walled && transmission_ > 0; }
     /// A film lies on the outside of bodies, below the coat.
     [[nodiscard]] bool has_film() const {
         return s_.thin_film_thickness > 0 && !inside_ && !s_.thin_walled;
@@ -236,7 +242,8 @@ class Layering {
     const StandardSurface& s_;
     const ShadePoint& at_;
     ClosureSet& out_;
-    Color left_;  ///< share of the light that the layers above let through
+    Color left_;           ///< share of the light that the layers above let through
+    Color through_sheet_;  ///< what the reflection of a sheet leaves of it
     float coat_, transmission_;
     bool inside_;  ///< of a transparent body
     BodyIndex index_;

@@ -140,8 +140,9 @@ TEST(StandardSurface, AllLayersAreWeightedAsSpecified) {
         EXPECT_NEAR(s.emitted()[i], below_coat * emission * emission_color[i], 1e-5);
         EXPECT_NEAR(s.weight(kMetal)[i], below_coat * metalness, 1e-5);
         EXPECT_NEAR(s.weight(kSpecular)[i], dielectric * specular * specular_color[i], 1e-5);
+        // Through a sheet the weight of the reflection does not matter.
         EXPECT_NEAR(s.weight(kTransmission)[i],
-                    below_specular * transmission * transmission_color[i], 1e-5);
+                    dielectric * (1 - r_specular) * transmission * transmission_color[i], 1e-5);
         EXPECT_NEAR(s.weight(kDiffuse)[i], base * (1 - subsurface), 1e-5);
         EXPECT_NEAR(s.weight(kSubsurface)[i], base * subsurface, 1e-5);
     }
@@ -325,6 +326,22 @@ TEST(StandardSurface, DepthMovesTheTintIntoTheInterior) {
                  {std::log(2.0F) / 2, std::log(4.0F) / 2, 0});
     node.set("thin_walled", true);
     EXPECT_TRUE(is_black(Shaded(node, hit(1)).set.interior().medium.extinction));
+}
+
+TEST(StandardSurface, SheetsBlurByTheirRoughnessAndIndex) {
+    TestNode node(node_standard_surface());
+    node.set("transmission", 1.0F).set("thin_walled", true).set("specular", 0.0F);
+    node.set("specular_roughness", 0.5F).set("transmission_extra_roughness", 0.25F);
+    const auto alpha = [&] {
+        return std::get<ThinTransmit>(Shaded(node, hit(0.5)).closure(kTransmission).model).alpha.x;
+    };
+    const float of_glass = alpha();
+    EXPECT_NEAR(of_glass, std::sqrt(3.0F) / 4 * 0.75F * 0.75F, 1e-6);
+    node.set("specular_IOR", 1.25F);
+    EXPECT_NEAR(alpha(), of_glass / 2, 1e-6);
+    node.set("specular_IOR", 1.0F);
+    EXPECT_EQ(alpha(), 0);
+    EXPECT_EQ(Shaded(node, hit(0.5)).weight(kTransmission), kWhite);
 }
 
 TEST(StandardSurface, CausticsFlagGoesToSpecularLobesOnly) {
