@@ -1,8 +1,10 @@
 // What must hold for every node, whoever adds it; and the defaults that were measured on Arnold's pictures and logs.
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
+#include "bsdf/closure.h"
 #include "nodes/all_nodes.h"
 #include "nodes/common/node_test_support.h"
 
@@ -80,6 +82,60 @@ TEST_P(EveryNode, HasTheFunctionsOfItsKind) {
     }
     for (std::size_t i = 0; i < t.lobes.size(); ++i)
         EXPECT_EQ(t.lobes[i].index, static_cast<int>(i));
+}
+
+/// Half of the numbers of a block at random, within [0,1].
+void shake(TestNode& node, std::mt19937& engine) {
+    const auto unit = [&] { return static_cast<float>(engine() >> 8) * 0x1p-24F; };
+    auto* block = static_cast<std::byte*>(node.block());
+    for (const ParamInfo& p : node.type().params) {
+        const bool numbers =
+            p.type == ParamType::Float || p.type == ParamType::Rgb || p.type == ParamType::Vector2;
+        if (p.is_array || !numbers || engine() % 2 == 0) continue;
+        for (std::size_t i = 0; i < type_size(p.type); i += sizeof(float)) {
+            const float value = unit();
+            std::memcpy(block + p.offset + i, &value, sizeof(value));
+        }
+    }
+}
+
+/// What a shader makes of a point, seen toward `wi`: the value and weight of each closure.
+std::vector<Color> closures_toward(const TestNode& node, const ShadePoint& at, Vec3f wi) {
+    const std::vector<LobeRecord> records(node.type().lobes.size());
+    ClosureSet set;
+    set.begin(at.wo, Frame::from_z(at.normal));
+    set.set_records(records);
+    node.type().eval_closure(node.block(), at, set);
+    std::vector<Color> out{set.transparency()};
+    for (std::size_t i = 0; i < set.closures().size(); ++i) {
+        out.push_back(set.closures()[i].weight);
+        out.push_back(set.eval(i, wi).f);
+    }
+    return out;
+}
+
+TEST_P(EveryNode, LooksAtNoCoordinatesIfItSaysSo) {
+    if (type().reads_coordinates == nullptr) return;
+    std::mt19937 engine(5);
+    int n_compared = 0;
+    for (int i = 0; i < 200; ++i) {
+        TestNode node(type());
+        shake(node, engine);
+        if (type().reads_coordinates(node.block())) continue;
+        ++n_compared;
+        ShadePoint at;
+        at.wo = normalize(Vec3f{0.3F, -0.2F, 0.8F});
+        ShadePoint elsewhere = at;
+        elsewhere.uv = {0.3F, 0.7F};
+        elsewhere.uv_width = 0.1F;
+        elsewhere.tangent = normalize(Vec3f{0.6F, 0.8F, 0});
+        elsewhere.dp_du = {0, 2, 0};
+        elsewhere.dp_dv = {-3, 0, 0};
+        const Vec3f wi = normalize(Vec3f{-0.5F, 0.1F, i % 2 == 0 ? 0.4F : -0.4F});
+        ASSERT_EQ(closures_toward(node, at, wi), closures_toward(node, elsewhere, wi));
+    }
+    // Who always looks need not say so, except where what it is made of says otherwise.
+    EXPECT_TRUE(n_compared > 0 || type().name.view() == "chiang_hair_bsdf");
 }
 
 INSTANTIATE_TEST_SUITE_P(Nodes, EveryNode, testing::ValuesIn(builtin_registry().names()));

@@ -52,6 +52,7 @@ void Compiler::place(ShapeLeaf&& leaf) {
     object.shaders = shaders.programs;
     object.may_be_transparent = shaders.may_be_transparent || was_widened(*leaf.geometry);
     object.may_tint_shadows = shaders.may_tint_shadows;
+    object.reads_coordinates = shaders.reads_coordinates;
     object.lights =
         leaf.use_light_group ? lights_of(leaf.light_group) : scene_->light_samplers[0].get();
     object.shadow_lights = leaf.use_shadow_group ? shadow_lights_of(leaf.shadow_group) : nullptr;
@@ -115,6 +116,7 @@ auto Compiler::shaders_of(const ShapeLeaf& leaf) -> const ShaderList& {
         add_surface_shader(program);
         out.may_be_transparent |= program->may_be_transparent;
         out.may_tint_shadows |= program->may_tint_shadows;
+        out.reads_coordinates |= program->reads_coordinates;
     }
     return out;
 }

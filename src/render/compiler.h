@@ -93,6 +93,7 @@ class Compiler {
 
     // compile_mattes.cpp
     void make_aov_shaders();
+    void find_coordinate_readers();
     [[nodiscard]] bool wants_default_mattes() const;
 
     // compile_shapes.cpp

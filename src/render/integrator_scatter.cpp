@@ -140,8 +140,10 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
     path_.last.samples_only = surface.object->tampers_with_shadows();
     path_.last.next_segment = path_.segment + 1;
     path_.fans_out &= delta;
-    path_.footprint.width += path_.footprint.spread * surface.t;
-    if (!delta) widen(path_.footprint, pdf, scene_.settings.footprint_samples);
+    if (scene_.reads_footprints) {
+        path_.footprint.width += path_.footprint.spread * surface.t;
+        if (!delta) widen(path_.footprint, pdf, scene_.settings.footprint_samples);
+    }
     ray = {start_of_ray(surface, sample.wi), sample.wi, 0, kInfinity, surface.at.time};
     return true;
 }

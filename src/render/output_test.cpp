@@ -204,6 +204,19 @@ TEST(Outputs, DataLayersDescribeTheFirstHit) {
     EXPECT_EQ(picture.color("opacity", 0), kWhite);
 }
 
+TEST(Outputs, AskingForUvChangesNoLight) {
+    // Uv are worked out only where somebody looks at them; frames of lobes must not depend on who does.
+    const auto beauty = [](const std::vector<const char*>& asked) {
+        const Picture picture = render(
+            frame_text(12, 12, 2, ortho_camera({0, 3, 2}, {0, 0.4F, 0}, 1.5F), outputs(asked)) +
+            node("standard_surface", "glossy", " specular_roughness 0.4\n coat 0.5") +
+            floor("ground", 0, 3, "glossy") + sphere("ball", {0, 0.5F, 0}, 0.5F, "glossy") +
+            square_light("key", 3, 1, " intensity 8"));
+        return picture.layer("RGBA").pixels;
+    };
+    EXPECT_EQ(beauty({"RGBA RGBA f d"}), beauty({"RGBA RGBA f d", "uv VECTOR2 f d"}));
+}
+
 TEST(Outputs, DataLayersOfNothingAreZero) {
     const Picture picture = render(frame_text(
         2, 2, 2, ortho_camera({0, 2, 0}, {0, 0, 0}, 1, {0, 0, -1}),

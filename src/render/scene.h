@@ -51,6 +51,7 @@ struct SceneLight {
 struct ShaderList {
     std::vector<const ShaderProgram*> programs;                 ///< at least one
     bool may_be_transparent = false, may_tint_shadows = false;  ///< one of them may
+    bool reads_coordinates = false;                             ///< one of them does
 };
 
 /// Who sees the picture as it grows.
@@ -106,6 +107,8 @@ class Scene {
     std::vector<std::unique_ptr<ShaderProgram>> shaders;
     std::vector<const ShaderProgram*> aov_shaders;  ///< run after each shader that the camera sees
     std::vector<std::shared_ptr<const void>> kept;  ///< what blocks of nodes point to
+    /// Whether widths of rays decide anything: some shader filters what it looks up.
+    bool reads_footprints = true;
     /// Linked colours of lights and other nodes that are no shaders.
     std::vector<std::unique_ptr<LinkedColor>> colors;
     std::unique_ptr<SceneServices> services;  ///< what shaders may ask of the scene

@@ -76,6 +76,8 @@ class ShaderProgram {
     bool may_be_transparent = false;
     /// Whether shadow rays may pass where others are refracted (ClosureSet::transmit_shadow).
     bool may_tint_shadows = false;
+    /// Whether it, or what is linked to it, may look at uv, their derivatives or the tangent.
+    bool reads_coordinates = true;
     /// Whether the body that it covers may scatter light inside.
     bool may_scatter_inside = false;
 

@@ -52,6 +52,7 @@ struct View {
     Vec3f along;  ///< the hit as a point of the ray, world space
     Vec3f wo;     ///< unit, world space
     float time;
+    bool wants_uv;  ///< and what goes with them: dp_du, uv_du, uv_dv, uv_per_unit
 };
 
 /// How much of a widened radius there was before.
@@ -97,7 +98,7 @@ LocalPoint resolve(const TriangleMesh& mesh, const RayHit& hit, const View& view
             normalize(view.place.object_from_world.normal_by_inverse(out.geometric_normal)));
     if (!mesh.face.empty()) out.face = mesh.face[hit.primitive];
     if (!mesh.shader_index.empty()) out.shader = mesh.shader_index[hit.primitive];
-    if (mesh.uvs.empty()) return out;
+    if (mesh.uvs.empty() || !view.wants_uv) return out;
     const Vec2f uv0 = mesh.uvs[mesh.uv_indices[t]], uv1 = mesh.uvs[mesh.uv_indices[t + 1]],
                 uv2 = mesh.uvs[mesh.uv_indices[t + 2]];
     out.uv = uv0 * b0 + uv1 * b1 + uv2 * b2;
@@ -116,6 +117,7 @@ LocalPoint on_sphere(Vec3f center, float radius, const View& view) {
     LocalPoint out;
     out.position = center + n * radius;  // back onto the sphere: t is only as good as a float
     out.geometric_normal = n;
+    if (!view.wants_uv) return out;
     out.dp_du = {n.z, 0, -n.x};
     out.uv = {0.5F + std::atan2(n.x, n.z) * (0.5F * kInvPi),
               0.5F + std::asin(std::clamp(n.y, -1.0F, 1.0F)) * kInvPi};
@@ -280,7 +282,8 @@ LocalPoint resolve(const CurveList& curves, const RayHit& hit, const View& view)
 
 Surface surface_at(const Placement& place, const SceneObject& object, const Ray& ray,
                    const RayHit& hit, const Footprint& footprint) {
-    const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time};
+    const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time,
+                    object.wants_uv};
     const LocalPoint local =
         std::visit([&](const auto& g) { return resolve(g, hit, view); }, object.geometry->data);
     Surface out;
@@ -304,8 +307,9 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     at.normal = dot(shading, out.outward) < 0 ? -shading : shading;
     const bool has_uv = !(local.dp_du == Vec3f{});
     const Vec3f tangent = has_uv ? place.world_from_object.vector(local.dp_du) : Vec3f{};
-    out.frame = has_uv ? Frame::from_z_x(at.normal, tangent) : Frame::from_z(at.normal);
-    at.tangent = out.frame.x;
+    const Frame along = has_uv ? Frame::from_z_x(at.normal, tangent) : Frame::from_z(at.normal);
+    at.tangent = along.x;
+    out.frame = has_uv && !object.reads_coordinates ? Frame::from_z(at.normal) : along;
     at.uv = local.uv;
     at.barycentric = hit.barycentric;
     at.dp_du = place.world_from_object.vector(local.uv_du);
@@ -337,7 +341,7 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
 
 LightHit light_hit_at(const Placement& place, const SceneObject& object, const Ray& ray,
                       const RayHit& hit) {
-    const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time};
+    const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time, true};
     const LocalPoint local =
         std::visit([&](const auto& g) { return resolve(g, hit, view); }, object.geometry->data);
     const Vec3f normal =

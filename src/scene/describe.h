@@ -180,6 +180,10 @@ class Describe {
         type_.default_block.resize(sizeof(T));
         std::memcpy(type_.default_block.data(), &defaults_, sizeof(T));
         add_shading();
+        if constexpr (requires(const T& t) { t.reads_coordinates(); })
+            type_.reads_coordinates = [](const void* block) {
+                return static_cast<const T*>(block)->reads_coordinates();
+            };
         if constexpr (requires(T& t, NodeContext& c) { t.prepare(c); })
             type_.prepare = [](void* block, NodeContext& c) {
                 static_cast<T*>(block)->prepare(c);

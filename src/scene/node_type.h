@@ -95,6 +95,8 @@ struct NodeType {
     bool reads_ray_type = false;
     /// The shader says what fills a volume.
     bool fills_volumes = false;
+    /// Whether a shader with these parameters looks at uv, their derivatives or the tangent; null: it may.
+    bool (*reads_coordinates)(const void* block) = nullptr;
 
     std::size_t block_size = 0, block_align = 1;
     std::vector<std::byte> default_block;  ///< the bytes of a default constructed parameter struct

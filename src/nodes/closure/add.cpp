@@ -21,6 +21,7 @@ struct Add {
     }
 
     [[nodiscard]] Color value(const ShadePoint&) const { return input1 + input2; }
+    [[nodiscard]] static bool reads_coordinates() { return false; }
     void eval(const ShadePoint& at, ClosureSet& out) const {
         if (!in1 && !in2) return out.emit(0, value(at));
         in1.closures(at, out);

@@ -46,6 +46,8 @@ struct ChiangHair : ScatterCommon {
         return d.done();
     }
 
+    /// Fibres that are not curves lie along the tangent.
+    [[nodiscard]] static bool reads_coordinates() { return true; }
     void eval(const ShadePoint& at, ClosureSet& out) const {
         const HairFibre fibre(at, out, curve_direction);
         const Color absorption{absorption_coefficient.x, absorption_coefficient.y,

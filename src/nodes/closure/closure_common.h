@@ -22,6 +22,7 @@ struct ScatterCommon {
     void prepare(NodeContext& context) {
         if (!context.is_linked("normal")) normal = {};
     }
+    [[nodiscard]] static bool reads_coordinates() { return false; }
     /// The closure's frame in the set; its x axis is along `tangent` (0 0 0: the hit's own).
     [[nodiscard]] std::uint8_t frame(const ShadePoint& at, ClosureSet& out,
                                      Vec3f tangent = {}) const {
@@ -54,6 +55,7 @@ struct MicrofacetCommon : ScatterCommon {
         ScatterCommon::prepare(context);
         if (!context.is_linked("tangent")) tangent = {};
     }
+    [[nodiscard]] bool reads_coordinates() const { return roughness.x != roughness.y; }
     [[nodiscard]] GgxAlpha alpha() const { return {roughness.x, roughness.y}; }
     /// Reflection by a base of these indices under the film.
     [[nodiscard]] FilmReflect filmed(Color n, Color k) const {

@@ -19,6 +19,7 @@ struct LabelClosure {
     }
 
     // The compiler gives the label to the events of `closure`: here is nothing left to do.
+    [[nodiscard]] static bool reads_coordinates() { return false; }
     void eval(const ShadePoint& at, ClosureSet& out) const { closure.closures(at, out); }
 };
 

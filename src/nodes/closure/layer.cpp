@@ -16,6 +16,7 @@ struct Layer {
     }
 
     /// top + base * (1 - E), E the directional albedo of the top.
+    [[nodiscard]] static bool reads_coordinates() { return false; }
     void eval(const ShadePoint& at, ClosureSet& out) const {
         const Color scale = out.scale();
         const std::size_t first = out.closures().size();

@@ -16,6 +16,7 @@ struct Mix {
         return d.done();
     }
 
+    [[nodiscard]] static bool reads_coordinates() { return false; }
     void eval(const ShadePoint& at, ClosureSet& out) const {
         const float share = unit(mix);
         add_scaled(fg, Color::grey(share), at, out);

@@ -22,6 +22,7 @@ struct Multiply {
     }
 
     [[nodiscard]] Color value(const ShadePoint&) const { return input1 * input2; }
+    [[nodiscard]] static bool reads_coordinates() { return false; }
     void eval(const ShadePoint& at, ClosureSet& out) const {
         if (!in1) return out.emit(0, value(at));
         add_scaled(in1, positive(in2), at, out);

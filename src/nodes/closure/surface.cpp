@@ -19,6 +19,7 @@ struct SurfaceNode {
         return d.done();
     }
 
+    [[nodiscard]] static bool reads_coordinates() { return false; }
     void eval(const ShadePoint& at, ClosureSet& out) const {
         const Color visible = Color::grey(unit(opacity));
         out.transparent(kWhite - visible);

@@ -17,6 +17,7 @@ struct UniformEdf {
         return d.done();
     }
 
+    [[nodiscard]] static bool reads_coordinates() { return false; }
     void eval(const ShadePoint&, ClosureSet& out) const { out.emit(0, positive(color)); }
 };
 

@@ -27,6 +27,7 @@ struct Lambert {
         if (!context.is_linked("normal")) normal = {};
     }
 
+    [[nodiscard]] static bool reads_coordinates() { return false; }
     void eval(const ShadePoint& at, ClosureSet& out) const {
         const Color visible = unit(opacity);
         out.transparent(kWhite - visible);

@@ -62,6 +62,9 @@ struct OpenPbrSurface {
 
     static NodeType describe();
     void prepare(NodeContext& context);
+    [[nodiscard]] bool reads_coordinates() const {
+        return specular_roughness_anisotropy > 0 || coat_roughness_anisotropy > 0;
+    }
     void eval(const ShadePoint& at, ClosureSet& out) const;
 };
 

@@ -68,6 +68,9 @@ struct StandardSurface : IdAovs {
 
     static NodeType describe();
     void prepare(NodeContext& context);
+    [[nodiscard]] bool reads_coordinates() const {
+        return specular_anisotropy > 0 || coat_anisotropy > 0;
+    }
     void eval(const ShadePoint& at, ClosureSet& out) const;
 };
 
