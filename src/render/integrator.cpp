@@ -120,7 +120,7 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
         RayHit hit;
         ++counts.rays_of(ray_kind_of(path_.groups[0].key.ray_type()));
         const bool met = scene_.accel->intersect(ray, ray_mask(), hit);
-        begin_media(ray, met ? hit.t : ray.t_max);
+        if (through_media() || media_.active()) begin_media(ray, met ? hit.t : ray.t_max);
         if (by_shadow_rays() && path_.segment == path_.last.next_segment) {
             if (scene_.light_accel) (void)add_area_lights(ray, ray.t_max);
             add_infinite_lights(ray);

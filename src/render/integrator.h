@@ -209,8 +209,16 @@ class Integrator {
     void separate_kinds();
 
     // Media (integrator_media.cpp).
+    /// Whether there is anything but surfaces on the ray's way.
+    [[nodiscard]] bool through_media() const {
+        return !scene_.volumes.empty() || scene_.atmosphere != nullptr || !path_.interiors.empty();
+    }
     /// Through media from where the ray has come to up to `to`.
-    [[nodiscard]] Passage travel(const Ray& ray, float to);
+    [[nodiscard]] Passage travel(const Ray& ray, float to) {
+        if (!media_.active() && scene_.atmosphere == nullptr) return Passage::Free;
+        return travel_through_media(ray, to);
+    }
+    [[nodiscard]] Passage travel_through_media(const Ray& ray, float to);
     [[nodiscard]] Passage collide(const Ray& ray, const Collision& collision);
     void make_vertex(const Ray& ray, const Collision& collision);
     void add_media_opacity(const Ray& ray, float to);

@@ -39,7 +39,7 @@ void Integrator<Tracker>::begin_media(const Ray& ray, float t_end) {
 }
 
 template <class Tracker>
-auto Integrator<Tracker>::travel(const Ray& ray, float to) -> Passage {
+auto Integrator<Tracker>::travel_through_media(const Ray& ray, float to) -> Passage {
     if (!(to > media_t_)) return Passage::Free;
     const bool hazy = scene_.atmosphere != nullptr;
     if (hazy) add_haze(ray, to);
@@ -173,13 +173,13 @@ Color Integrator<Tracker>::media_transmittance(const Ray& ray) {
 }
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
-#define LIGHTSIEVE_MEDIA(Tracker)                                                        \
-    template void Integrator<Tracker>::begin_media(const Ray&, float);                   \
-    template auto Integrator<Tracker>::travel(const Ray&, float) -> Passage;             \
-    template auto Integrator<Tracker>::collide(const Ray&, const Collision&) -> Passage; \
-    template void Integrator<Tracker>::make_vertex(const Ray&, const Collision&);        \
-    template void Integrator<Tracker>::add_media_opacity(const Ray&, float);             \
-    template Vec3f Integrator<Tracker>::somewhere_in_media(const Ray&, float);           \
+#define LIGHTSIEVE_MEDIA(Tracker)                                                          \
+    template void Integrator<Tracker>::begin_media(const Ray&, float);                     \
+    template auto Integrator<Tracker>::travel_through_media(const Ray&, float) -> Passage; \
+    template auto Integrator<Tracker>::collide(const Ray&, const Collision&) -> Passage;   \
+    template void Integrator<Tracker>::make_vertex(const Ray&, const Collision&);          \
+    template void Integrator<Tracker>::add_media_opacity(const Ray&, float);               \
+    template Vec3f Integrator<Tracker>::somewhere_in_media(const Ray&, float);             \
     template Color Integrator<Tracker>::media_transmittance(const Ray&);
 LIGHTSIEVE_MEDIA(AovTracker)
 LIGHTSIEVE_MEDIA(LogTracker)
