@@ -55,6 +55,40 @@ TEST(Diagnostics, SameReportOnce) {
     EXPECT_EQ(diagnostics.n_warnings(), 1U);
 }
 
+TEST(Frames, LevelOnesAreOrthonormalAndLevel) {
+    for (int i = 0; i <= 40; ++i)
+        for (int k = 0; k < 40; ++k) {
+            const float theta = kPi * static_cast<float>(i) / 40,
+                        phi = 2 * kPi * static_cast<float>(k) / 40;
+            const Vec3f n{std::sin(theta) * std::sin(phi), std::cos(theta),
+                          std::sin(theta) * std::cos(phi)};
+            const Frame f = Frame::from_z_level(n);
+            EXPECT_NEAR(f.x.y, 0, 1e-6F);
+            EXPECT_NEAR(length(f.x), 1, 2e-6F);
+            EXPECT_NEAR(length(f.y - cross(f.z, f.x)), 0, 2e-6F);
+            EXPECT_NEAR(dot(f.x, f.z), 0, 2e-6F);
+        }
+    const Frame up = Frame::from_z_level({0, 1, 0}), down = Frame::from_z_level({0, -1, 0});
+    EXPECT_EQ(up.y, cross(up.z, up.x));
+    EXPECT_EQ(down.y, cross(down.z, down.x));
+}
+
+TEST(Sampling, DiscIsTheMapOfShirleyAndChiu) {
+    for (int i = 0; i <= 32; ++i)
+        for (int k = 0; k <= 32; ++k) {
+            const Vec2f u{static_cast<float>(i) / 32, static_cast<float>(k) / 32};
+            // Squares go to circles: the radius is the larger coordinate, the angle goes evenly along the side.
+            const double x = 2.0 * i / 32 - 1, y = 2.0 * k / 32 - 1;
+            const bool wide = std::abs(x) > std::abs(y);
+            const double r = wide ? x : y, quarter = std::acos(-1.0) / 4;
+            const double angle =
+                wide ? quarter * y / x : (y == 0 ? 0 : 2 * quarter - quarter * x / y);
+            const Vec2f d = sample_concentric_disk(u);
+            EXPECT_NEAR(d.x, r * std::cos(angle), 1.2e-7);
+            EXPECT_NEAR(d.y, r * std::sin(angle), 1.2e-7);
+        }
+}
+
 TEST(Matrix, RowVectorsAndInverse) {
     const Mat4f m = Mat4f::scale({2, 3, 4}) * Mat4f::translation({1, 2, 3});
     EXPECT_EQ(m.point({1, 1, 1}), (Vec3f{3, 5, 7}));

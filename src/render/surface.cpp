@@ -307,9 +307,10 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     at.normal = dot(shading, out.outward) < 0 ? -shading : shading;
     const bool has_uv = !(local.dp_du == Vec3f{});
     const Vec3f tangent = has_uv ? place.world_from_object.vector(local.dp_du) : Vec3f{};
-    const Frame along = has_uv ? Frame::from_z_x(at.normal, tangent) : Frame::from_z(at.normal);
+    const Frame level = Frame::from_z_level(at.normal);
+    const Frame along = has_uv ? Frame::from_z_x(at.normal, tangent) : level;
     at.tangent = along.x;
-    out.frame = has_uv && !object.reads_coordinates ? Frame::from_z(at.normal) : along;
+    out.frame = object.reads_coordinates ? along : level;
     at.uv = local.uv;
     at.barycentric = hit.barycentric;
     at.dp_du = place.world_from_object.vector(local.uv_du);
