@@ -313,8 +313,10 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     out.frame = object.reads_coordinates ? along : level;
     at.uv = local.uv;
     at.barycentric = hit.barycentric;
-    at.dp_du = place.world_from_object.vector(local.uv_du);
-    at.dp_dv = place.world_from_object.vector(local.uv_dv);
+    if (object.wants_uv) {
+        at.dp_du = place.world_from_object.vector(local.uv_du);
+        at.dp_dv = place.world_from_object.vector(local.uv_dv);
+    }
     at.width = footprint.width + footprint.spread * hit.t;
     at.ray_length = hit.t;
     at.primitive = hit.primitive;
