@@ -4,8 +4,8 @@ namespace lightsieve {
 
 namespace {
 
-/// Sine and cosine of x * pi / 4 for |x| <= 1, by their series: within one unit in the last place, the same bits on every
-/// processor, and much cheaper than for any angle.
+/// Sine and cosine of x * pi / 4 for |x| <= 1, by their series: within 1.2e-7 (core_test.cpp), the same bits on every
+/// processor, and cheaper than for any angle: 2 % of the time of a path.
 struct EighthTurns {
     float sine, cosine;
     explicit EighthTurns(float x) {

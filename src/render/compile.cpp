@@ -153,22 +153,6 @@ void Compiler::read_log_settings() {
     log.stats_append = option<std::int32_t>("stats_mode", 0) == 1;
 }
 
-/// Where nobody looks at uv and tangents, they are not worked out.
-void Compiler::find_coordinate_readers() {
-    const auto is_uv = [](const PlannedLayer& layer) { return layer.source == LayerSource::Uv; };
-    const bool everywhere =
-        !scene_->aov_shaders.empty() ||
-        std::any_of(scene_->plan.layers.begin(), scene_->plan.layers.end(), is_uv);
-    for (SceneObject& object : scene_->objects) {
-        object.reads_coordinates |= object.bumps != nullptr;
-        // Outputs get uv, too, but change no frame: the noise of a picture does not depend on what is asked for.
-        object.wants_uv = object.reads_coordinates || everywhere;
-    }
-    scene_->reads_footprints =
-        std::any_of(scene_->shaders.begin(), scene_->shaders.end(),
-                    [](const auto& program) { return program->reads_coordinates; });
-}
-
 bool Compiler::has_caustics() const {
     const auto has = [](const auto& node) {
         const bool* caustics = node->template find<bool>("caustics");

@@ -116,9 +116,25 @@ auto Compiler::shaders_of(const ShapeLeaf& leaf) -> const ShaderList& {
         add_surface_shader(program);
         out.may_be_transparent |= program->may_be_transparent;
         out.may_tint_shadows |= program->may_tint_shadows;
-        out.reads_coordinates |= program->reads_coordinates;
+        out.reads_coordinates |= program->reads_coordinates();
     }
     return out;
+}
+
+/// Where nobody looks at uv and tangents, they are not worked out.
+void Compiler::find_coordinate_readers() {
+    const auto is_uv = [](const PlannedLayer& layer) { return layer.source == LayerSource::Uv; };
+    const bool everywhere =
+        !scene_->aov_shaders.empty() ||
+        std::any_of(scene_->plan.layers.begin(), scene_->plan.layers.end(), is_uv);
+    for (SceneObject& object : scene_->objects) {
+        object.reads_coordinates |= object.bumps != nullptr;
+        // Outputs get uv, too, but change no frame: the noise of a picture does not depend on what is asked for.
+        object.wants_uv = object.reads_coordinates || everywhere;
+    }
+    scene_->reads_footprints =
+        std::any_of(scene_->shaders.begin(), scene_->shaders.end(),
+                    [](const auto& program) { return program->reads_coordinates(); });
 }
 
 /// The user data lpe_label; empty if the node has none.

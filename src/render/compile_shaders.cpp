@@ -69,10 +69,7 @@ const ShaderProgram* Compiler::program_for(const NodeInstance& node, const Event
     scene_->disperses |= shader_may_disperse(node);
     if (const auto* priority = node.find<std::int32_t>("dielectric_priority"))
         out->dielectric_priority = *priority;
-    out->reads_coordinates = out->is_linked() || type.reads_coordinates == nullptr ||
-                             type.reads_coordinates(out->block());
     for (const ShaderProgram* part : out->parts) {
-        out->reads_coordinates |= part->reads_coordinates;
         out->may_be_transparent |= part->may_be_transparent;
         out->may_tint_shadows |= part->may_tint_shadows;
         out->dielectric_priority = std::max(out->dielectric_priority, part->dielectric_priority);

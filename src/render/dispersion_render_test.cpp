@@ -16,7 +16,7 @@ const char* const kDepths =
     "24\n indirect_sample_clamp 1e6";
 
 std::string ball_in_a_furnace(std::string_view shader) {
-    return frame_text(24, 24, 12, ortho_camera({0, 0, 5}, {0, 0, 0}, 1.9F), kDepths) +
+    return frame_text(24, 24, 10, ortho_camera({0, 0, 5}, {0, 0, 0}, 1.9F), kDepths) +
            node("standard_surface", "glass",
                 " base 0\n transmission 1\n caustics on\n " + std::string(shader)) +
            sphere("ball", {0, 0, 0}, 1, "glass") + node("skydome_light", "sky", "");

@@ -16,11 +16,16 @@ constexpr std::uint32_t kWalkStream = 0x5bd1e995U;
 /// Roulette never kills nor spares more surely than this.
 constexpr float kLeastSurvival = 0.05F, kMostSurvival = 0.95F;
 
+/// The footprint at the next vertex, `t` further on.
+///
 /// A scattered ray stands for its share of the directions: of n samples with that density each has the solid angle
 /// 1 / (n pdf), which a cone covers. So textures that are seen indirectly are filtered, the less the more samples there
 /// are. Source of the idea: Suykens and Willems 2001, "Path Differentials and Applications".
-void widen(Footprint& footprint, float pdf, int n_samples) {
+///
+/// pdf  of the direction per solid angle; infinite: a delta lobe, which widens nothing
+void widen(Footprint& footprint, float t, float pdf, int n_samples) {
     constexpr float kWidest = 1;  // about a hemisphere [rad]
+    footprint.width += footprint.spread * t;
     const float spread = 2 / std::sqrt(kPi * pdf * static_cast<float>(std::max(1, n_samples)));
     if (spread > footprint.spread) footprint.spread = std::min(spread, kWidest);
 }
@@ -140,10 +145,9 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
     path_.last.samples_only = surface.object->tampers_with_shadows();
     path_.last.next_segment = path_.segment + 1;
     path_.fans_out &= delta;
-    if (scene_.reads_footprints) {
-        path_.footprint.width += path_.footprint.spread * surface.t;
-        if (!delta) widen(path_.footprint, pdf, scene_.settings.footprint_samples);
-    }
+    if (scene_.reads_footprints)
+        widen(path_.footprint, surface.t, delta ? kInfinity : pdf,
+              scene_.settings.footprint_samples);
     ray = {start_of_ray(surface, sample.wi), sample.wi, 0, kInfinity, surface.at.time};
     return true;
 }
@@ -248,8 +252,8 @@ bool Integrator<Tracker>::scatter_below(const Surface& surface, std::size_t draw
     path_.last.samples_only = at.object->tampers_with_shadows();
     path_.last.next_segment = path_.segment + 1;
     path_.fans_out = false;
-    path_.footprint.width += path_.footprint.spread * surface.t;
-    widen(path_.footprint, path_.last.pdf, scene_.settings.footprint_samples);
+    if (scene_.reads_footprints)
+        widen(path_.footprint, surface.t, path_.last.pdf, scene_.settings.footprint_samples);
     ray = {offset_ray_origin(at.at.position, exit->outside), wi, 0, kInfinity, at.at.time};
     return true;
 }

@@ -55,9 +55,9 @@ struct SceneObject {
     bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;
     bool may_be_transparent = false;  ///< rays may pass straight through
     bool may_tint_shadows = false;    ///< shadow rays may, though other rays do not
-    /// Some shader of it looks at uv or tangents: frames lie along the tangent.
-    bool reads_coordinates = true;
-    bool wants_uv = true;  ///< somebody looks at them: a shader, or an output
+    bool reads_coordinates =
+        true;              ///< its shaders look at uv or tangents: frames lie along the tangent
+    bool wants_uv = true;  ///< somebody looks at uv: a shader of it, or an output
     bool is_cut = false;   ///< parts of it are not there: Scene::cutters knows which
     /// What hides lights from it is not what hides them from a ray that leaves it: only light samples find lights.
     [[nodiscard]] bool tampers_with_shadows() const { return !receive_shadows || !self_shadows; }

@@ -151,6 +151,13 @@ void ShaderProgram::add_link(const ParamInfo& param, std::int32_t element, Patch
     patches_.push_back(patch);
 }
 
+bool ShaderProgram::reads_coordinates() const {
+    if (is_linked() || type_->reads_coordinates == nullptr) return true;
+    return type_->reads_coordinates(block()) ||
+           std::any_of(parts.begin(), parts.end(),
+                       [](const ShaderProgram* part) { return part->reads_coordinates(); });
+}
+
 void ShaderProgram::share_links(const ShaderProgram& other) {
     patches_ = other.patches_;
     arrays_ = other.arrays_;

@@ -49,6 +49,8 @@ class ShaderProgram {
     void share_links(const ShaderProgram& other);
     /// Whether anything drives a parameter.
     [[nodiscard]] bool is_linked() const { return !patches_.empty() || !lazy_.empty(); }
+    /// Whether it may look at uv, their derivatives or the tangent: what is linked to it may always.
+    [[nodiscard]] bool reads_coordinates() const;
     [[nodiscard]] const NodeType& type() const { return *type_; }
     [[nodiscard]] std::byte* block() { return block_.get(); }
     [[nodiscard]] const std::byte* block() const { return block_.get(); }
@@ -76,8 +78,6 @@ class ShaderProgram {
     bool may_be_transparent = false;
     /// Whether shadow rays may pass where others are refracted (ClosureSet::transmit_shadow).
     bool may_tint_shadows = false;
-    /// Whether it, or what is linked to it, may look at uv, their derivatives or the tangent.
-    bool reads_coordinates = true;
     /// Whether the body that it covers may scatter light inside.
     bool may_scatter_inside = false;
 

@@ -307,10 +307,9 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     at.normal = dot(shading, out.outward) < 0 ? -shading : shading;
     const bool has_uv = !(local.dp_du == Vec3f{});
     const Vec3f tangent = has_uv ? place.world_from_object.vector(local.dp_du) : Vec3f{};
-    const Frame level = Frame::from_z_level(at.normal);
-    const Frame along = has_uv ? Frame::from_z_x(at.normal, tangent) : level;
-    at.tangent = along.x;
-    out.frame = object.reads_coordinates ? along : level;
+    out.frame = has_uv ? Frame::from_z_x(at.normal, tangent) : Frame::from_z_level(at.normal);
+    at.tangent = out.frame.x;
+    if (has_uv && !object.reads_coordinates) out.frame = Frame::from_z_level(at.normal);
     at.uv = local.uv;
     at.barycentric = hit.barycentric;
     if (object.wants_uv) {

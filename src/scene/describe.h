@@ -7,9 +7,8 @@
 //         return d.done();
 //     }
 //
-// `done()` finds the functions that the struct has: eval, prepare, make_light, make_light_filter, make_geometry,
-// make_camera, make_filter, make_driver, make_color_spaces, edit_scene,
-// possible_texts. Types and offsets come from the member pointers: nothing is written twice.
+// `done()` finds the functions that the struct has: eval, prepare, reads_coordinates, make_light, make_light_filter,
+// make_geometry, make_camera, make_filter, make_driver, make_imager, make_color_spaces, edit_scene, possible_texts. Types and offsets come from the member pointers: nothing is written twice.
 #pragma once
 
 #include <concepts>

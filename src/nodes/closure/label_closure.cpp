@@ -18,8 +18,8 @@ struct LabelClosure {
         return d.done();
     }
 
-    // The compiler gives the label to the events of `closure`: here is nothing left to do.
     [[nodiscard]] static bool reads_coordinates() { return false; }
+    // The compiler gives the label to the events of `closure`: here is nothing left to do.
     void eval(const ShadePoint& at, ClosureSet& out) const { closure.closures(at, out); }
 };
 

@@ -15,8 +15,8 @@ struct Layer {
         return d.done();
     }
 
-    /// top + base * (1 - E), E the directional albedo of the top.
     [[nodiscard]] static bool reads_coordinates() { return false; }
+    /// top + base * (1 - E), E the directional albedo of the top.
     void eval(const ShadePoint& at, ClosureSet& out) const {
         const Color scale = out.scale();
         const std::size_t first = out.closures().size();

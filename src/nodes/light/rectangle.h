@@ -101,14 +101,12 @@ class RectangleView {
         const float w = rectangle_.width(), h = rectangle_.height();
         const float distance_squared = square(x0 + 0.5F * w) + square(y0 + 0.5F * h) + square(z0);
         if (!(0.25F * (w * w + h * h) < kFar * kFar * distance_squared)) return false;
-        const float x2 = square(x0), x2_far = square(x0 + w), z2 = square(z0);
-        const float y2 = square(y0) + z2, y2_far = square(y0 + h) + z2;
-        const std::array<float, 4> r2{x2 + y2, x2_far + y2, x2 + y2_far, x2_far + y2_far};
-        // Relative to the centre: numbers near 1 whatever the scale. Four at once for the compiler.
-        for (std::size_t i = 0; i < 4; ++i)
-            corner_density_[i] = distance_squared / r2[i];
-        for (float& q : corner_density_)
-            q *= std::sqrt(q);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const float x = i % 2 == 0 ? x0 : x0 + w, y = i < 2 ? y0 : y0 + h;
+            // Relative to the centre: numbers near 1 whatever the scale.
+            const float q = distance_squared / (x * x + y * y + z0 * z0);
+            corner_density_[i] = q * std::sqrt(q);
+        }
         return true;
     }
 

@@ -141,6 +141,16 @@ TEST(OpenPbr, ThinWallsHaveNoInterior) {
     EXPECT_TRUE(is_black(Shaded(node, 1).set.interior().medium.extinction));
     EXPECT_NEAR(Shaded(node, 1).weight(kTransmission).g / Shaded(node, 1).weight(kTransmission).b,
                 0.25F, 1e-5);
+    // Blurred by two interfaces: alpha * (ior - 1) * sqrt(3) / 2.
+    node.set("specular_roughness", 0.5F).set("specular_ior", 1.4F).set("specular_weight", 0.0F);
+    const Shaded glass(node, 1);
+    const Closure* through = nullptr;
+    for (const Closure& c : glass.set.closures())
+        if (c.record == &glass.records[kTransmission]) through = &c;
+    ASSERT_NE(through, nullptr);
+    EXPECT_NEAR(std::get<ThinTransmit>(through->model).alpha.x, 0.25F * 0.4F * std::sqrt(0.75F),
+                1e-6F);
+    EXPECT_NEAR(through->weight.b, 1, 1e-6F) << "without a reflection nothing is lost";
     node.set("transmission_weight", 0.0F).set("subsurface_weight", 1.0F);
     const Shaded sheet(node, 1);
     EXPECT_TRUE(sheet.set.subsurfaces().empty());
