@@ -27,7 +27,7 @@ sys.path.insert(0, str(HERE))
 
 import lightsieve  # noqa: E402
 from lightsieve.denoise_oidn import Denoiser  # noqa: E402
-from scenes import cornell_box  # noqa: E402
+from scenes import as_ass, cornell_box  # noqa: E402
 
 Picture = npt.NDArray[np.float64]
 
@@ -91,7 +91,7 @@ class Errors:
 
 
 def cases(folder: Path, quick: bool) -> list[Case]:
-    (folder / "cornell.ass").write_text(cornell_box.ass(n_groups=3))
+    as_ass.write(folder / "cornell.ass", cornell_box.scene(n_groups=3), resolution=512)
     cornell = folder / "cornell.ass"
     aovs = (*CORNELL_AOVS, "N VECTOR")
     if quick:

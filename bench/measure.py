@@ -115,6 +115,21 @@ def beauty(outcome: object) -> np.ndarray:
     return outcome.layers[0][1][..., :3]  # type: ignore[attr-defined,no-any-return]
 
 
+def all_builtins() -> list[str]:
+    """Outputs for every built-in AOV and for each of its light groups."""
+    import lightsieve
+
+    out: list[str] = []
+    for builtin in lightsieve.lpe.builtins():
+        # The beauty is the scene's own output.
+        if builtin.name != "RGBA":
+            out.append(f"{builtin.name} RGB")
+        # An albedo ends at no light: it has no groups.
+        if "albedo" not in builtin.name:
+            out.append(f"{builtin.name}_* RGB")
+    return out
+
+
 def variance(job: Job) -> float:
     """Half the mean squared difference of two renders; the brightest 0.1 % of the pixels are left out."""
     a, b = (

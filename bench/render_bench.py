@@ -25,10 +25,11 @@ from typing import Any
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
-from measure import Job  # noqa: E402
+from measure import Job, all_builtins  # noqa: E402
 
 import lightsieve  # noqa: E402
 from scenes import (  # noqa: E402
+    as_ass,
     ceiling_panels,
     cornell_box,
     hair_ball,
@@ -80,17 +81,15 @@ class Scene:
 
 
 def _cornell(n_groups: int) -> Callable[[Path, Size], None]:
-    return lambda path, size: (
-        path.write_text(cornell_box.ass(n_groups, resolution=size.resolution)) and None
-    )
+    return lambda path, size: as_ass.write(path, cornell_box.scene(n_groups), size.resolution)
 
 
 def _panels(path: Path, size: Size) -> None:
-    path.write_text(ceiling_panels.ass(size.resolution))
+    as_ass.write(path, ceiling_panels.scene(), size.resolution)
 
 
 def _terrain(path: Path, size: Size) -> None:
-    terrain.write(path, size.n_triangles, size.resolution)
+    as_ass.write(path, terrain.scene(size.n_triangles), size.resolution)
 
 
 def _hair(path: Path, size: Size) -> None:
@@ -123,19 +122,6 @@ AOV_SCENES = (
     Scene(f"Cornell box, {N_GROUPS} groups", _cornell(N_GROUPS)),
     Scene(f"64 ceiling panels, {ceiling_panels.N_GROUPS} groups", _panels),
 )
-
-
-def all_builtins() -> list[str]:
-    """Outputs for every built-in AOV and for each of its light groups."""
-    out: list[str] = []
-    for builtin in lightsieve.lpe.builtins():
-        # The beauty is the scene's own output.
-        if builtin.name != "RGBA":
-            out.append(f"{builtin.name} RGB")
-        # An albedo ends at no light: it has no groups.
-        if "albedo" not in builtin.name:
-            out.append(f"{builtin.name}_* RGB")
-    return out
 
 
 def measured(job: Job) -> list[dict[str, Any]]:

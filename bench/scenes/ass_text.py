@@ -20,7 +20,7 @@ class Array:
         self.numbers = numbers
 
     def __str__(self) -> str:
-        words = [x if isinstance(x, str) else format(x, ".7g") for x in self.numbers]
+        words = [f"{x:.7g}" if isinstance(x, float) else str(x) for x in self.numbers]
         lines = [" ".join(words[i : i + 24]) for i in range(0, len(words), 24)]
         return f"{self.n} 1 {self.kind}\n  " + "\n  ".join(lines)
 
