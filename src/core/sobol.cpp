@@ -10,18 +10,23 @@ using Byte16 = std::uint8_t __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 using Float4 = float __attribute__((vector_size(16)));
 
-constexpr std::uint32_t reverse_bytes(std::uint32_t x) { return __builtin_bswap32(x); }
-Word4 reverse_bytes(Word4 x) {
-    constexpr Byte16 kOrder{3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12};
-    return __builtin_bit_cast(Word4, __builtin_shuffle(__builtin_bit_cast(Byte16, x), kOrder));
-}
-
-template <class Word>
-constexpr Word reverse_bits(Word x) {
-    x = reverse_bytes(x);
+constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+    x = __builtin_bswap32(x);
     x = ((x & 0x0f0f0f0fU) << 4U) | ((x >> 4U) & 0x0f0f0f0fU);
     x = ((x & 0x33333333U) << 2U) | ((x >> 2U) & 0x33333333U);
     return ((x & 0x55555555U) << 1U) | ((x >> 1U) & 0x55555555U);
+}
+/// Bytes are shuffled into reversed order, then each half byte looks up its own reversal.
+Word4 reverse_bits(Word4 x) {
+    constexpr Byte16 kOrder{3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12};
+    constexpr Byte16 kReversed{0x0, 0x8, 0x4, 0xc, 0x2, 0xa, 0x6, 0xe,
+                               0x1, 0x9, 0x5, 0xd, 0x3, 0xb, 0x7, 0xf};
+    const Byte16 bytes = __builtin_shuffle(__builtin_bit_cast(Byte16, x), kOrder);
+    const Byte16 low = bytes & 0x0fU;
+    const auto high =
+        __builtin_bit_cast(Byte16, (__builtin_bit_cast(Word4, bytes) >> 4U) & 0x0f0f0f0fU);
+    return __builtin_bit_cast(
+        Word4, __builtin_shuffle(kReversed << 4U, low) | __builtin_shuffle(kReversed, high));
 }
 
 /// Owen scrambling of a bit-reversed number: each bit is flipped by a hash of the bits below it.
