@@ -20,7 +20,7 @@ struct DataAov {
 };
 
 /// AOVs that are no light path expressions, with the types that they can be written as.
-constexpr std::array<DataAov, 17> kDataAovs{{
+constexpr std::array<DataAov, 18> kDataAovs{{
     {"Z", LayerSource::Depth, {"FLOAT", "", ""}},
     {"N", LayerSource::Normal, {"VECTOR", "RGB", ""}},
     {"P", LayerSource::Position, {"VECTOR", "RGB", ""}},
@@ -33,6 +33,7 @@ constexpr std::array<DataAov, 17> kDataAovs{{
     {"shadow_diff", LayerSource::ShadowDifference, {"RGB", "FLOAT", ""}},
     {"shadow_mask", LayerSource::ShadowMask, {"RGB", "FLOAT", ""}},
     {"Pref", LayerSource::Pref, {"VECTOR", "RGB", ""}},
+    {"motionvector", LayerSource::Motion, {"RGB", "VECTOR", "VECTOR2"}},
     {"raycount", LayerSource::RayCount, {"FLOAT", "", ""}},
     {"cputime", LayerSource::CpuTime, {"FLOAT", "", ""}},
     {"AA_inv_density", LayerSource::InverseDensity, {"FLOAT", "", ""}},
@@ -394,6 +395,7 @@ class Planner {
         plan_.wants_cost |=
             data->source == LayerSource::CpuTime || data->source == LayerSource::RayCount;
         plan_.wants_pref |= data->source == LayerSource::Pref;
+        plan_.wants_motion |= data->source == LayerSource::Motion;
         plan_.layers.push_back(std::move(planned));
     }
 

@@ -41,6 +41,7 @@ enum class LayerSource : std::uint8_t {
     Id,                ///< ID: the shape's id or a hash of its name
     Uv,                ///< uv
     Pref,              ///< Pref: the point before it was deformed
+    Motion,            ///< motionvector: way over the picture while the shutter is open [pixels]
     RayCount,          ///< raycount: rays that the pixel took
     CpuTime,           ///< cputime: what it took [microseconds]
     InverseDensity,    ///< AA_inv_density: one over the number of camera samples
@@ -116,6 +117,7 @@ struct AovPlan {
     bool wants_clamps = false;                  ///< some layer shows what clamps took away
     bool wants_cost = false;                    ///< some layer shows rays or time
     bool wants_pref = false;                    ///< some layer shows Pref
+    bool wants_motion = false;                  ///< some layer shows motionvector
     bool wants_deep = false;                    ///< some driver writes deep pixels
     lpe::BuiltinTable table = lpe::BuiltinTable::Reference;  ///< which built-ins the scene uses
     std::vector<std::string> light_groups;  ///< named groups of the scene's lights

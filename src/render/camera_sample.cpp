@@ -13,16 +13,19 @@ CameraSample CameraSampler::sample(int x, int y, std::uint32_t index) const {
                      0,
                      {},
                      {},
+                     {},
+                     {},
                      {}};
     const PixelFilter& filter = *scene_.plan.views[pass_.sampling_view].filter;
     const std::array<Vec2f, 4> points = out.sampler.at2x4(0);
     out.offset = filter.sample(points[kFilterPair]).offset;
-    const Vec2f film{
+    const Vec2f film = out.film = {
         (static_cast<float>(x) + 0.5F + out.offset.x) / static_cast<float>(scene_.settings.width),
         (static_cast<float>(y) + 0.5F + out.offset.y) /
             static_cast<float>(scene_.settings.height)};
     out.time = pass_.camera->sample_time(film, points[kTimePair].x);
-    out.ray = pass_.camera->ray(film, points[kLensPair], out.time);
+    out.lens = points[kLensPair];
+    out.ray = pass_.camera->ray(film, out.lens, out.time);
     out.state.x = x;
     out.state.y = y;
     out.state.sample = index;

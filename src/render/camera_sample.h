@@ -17,8 +17,9 @@ struct CameraSample {
     CameraRay ray;
     float time = 0;
     Mat4f camera_from_world;
-    Vec2f offset;    ///< from the pixel's centre [pixels]
-    RayState state;  ///< what shaders see of it: pixel, place in it
+    Vec2f offset;      ///< from the pixel's centre [pixels]
+    Vec2f film, lens;  ///< as Camera::ray takes them
+    RayState state;    ///< what shaders see of it: pixel, place in it
 };
 
 /// Makes the camera samples of one pass.
@@ -32,6 +33,8 @@ class CameraSampler {
     [[nodiscard]] CameraSample sample(int x, int y, std::uint32_t index) const;
     /// One weight for each of the pass's views.
     void weights(const CameraSample& sample, std::vector<float>& out) const;
+
+    [[nodiscard]] const Camera& camera() const { return *pass_.camera; }
 
   private:
     const Scene& scene_;

@@ -17,7 +17,7 @@
 namespace lightsieve {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x32544b434556534cU;  // "LSVECKT2" on little-endian machines
+constexpr std::uint64_t kMagic = 0x33544b434556534cU;  // "LSVECKT3" on little-endian machines
 constexpr std::uint32_t kRecord = 0x44524352U;
 /// Longer than any header and any bucket's film [bytes]: what claims to be larger is damage.
 constexpr std::uint64_t kLargestRecord = std::uint64_t{1} << 36U;

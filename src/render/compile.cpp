@@ -103,6 +103,7 @@ ScenePtr Compiler::run() {
     make_cameras();
     make_views();
     find_adaptive_layer();
+    check_motion();
     find_culling();
     part_passes();
     make_drivers();

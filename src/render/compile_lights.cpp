@@ -244,6 +244,7 @@ void Compiler::add_light_geometry() {
         object.geometry = geometry;
         static constexpr Mat4f kInPlace{};
         object.world_from_object = object.object_from_world = {&kInPlace, 1};
+        object.in_place = true;
         object.name = scene_->lights[i].name;
         scene_->light_of_object.push_back(i);
         scene_->light_objects.push_back(std::move(object));

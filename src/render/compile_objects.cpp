@@ -92,6 +92,7 @@ bool Compiler::set_placement(const ShapeLeaf& leaf, SceneObject& object) {
     std::copy(leaf.placement.begin(), leaf.placement.end(), place.begin());
     object.world_from_object = place;
     object.object_from_world = inverse;
+    object.in_place = n == 1 && place[0] == Mat4f{};
     return true;
 }
 

@@ -137,6 +137,17 @@ void Compiler::find_adaptive_layer() {
                          nearest.empty() ? "the noise of the beauty decides" : nearest);
 }
 
+/// Motion is that while the shutter is open.
+void Compiler::check_motion() {
+    const RenderSettings& s = scene_->settings;
+    if (!scene_->plan.wants_motion || s.shutter_end > s.shutter_start) return;
+    const NodeInstance* camera = default_camera();
+    diagnostics_.warning(
+        Code::OutputStill, "motionvector is zero everywhere: the shutter opens for no time",
+        camera != nullptr ? camera->where("shutter_end") : SourceSpan{},
+        "give the camera a shutter_end after its shutter_start, for example 0 and 1");
+}
+
 /// Deep files hold light, of one camera.
 void Compiler::check_deep(PlannedDriver& planned) {
     const AovPlan& plan = scene_->plan;

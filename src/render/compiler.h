@@ -65,6 +65,7 @@ class Compiler {
     void read_adaptive();
     /// The layer that options.adaptive_aov names.
     void find_adaptive_layer();
+    void check_motion();
     void find_culling();
     void make_cameras();
     void finish_depth_rules();

@@ -303,6 +303,7 @@ SampleSpread::Values Film::value_of(const PlannedLayer& layer, const SampleBuffe
         case LayerSource::Position: return vector(f.position);
         case LayerSource::Pref: return vector(f.pref);
         case LayerSource::Uv: return {double{f.uv.x}, double{f.uv.y}};
+        case LayerSource::Motion: return {double{f.motion.x}, double{f.motion.y}};
         case LayerSource::Alpha: return {double{sample.alpha}};
         case LayerSource::Opacity: return color(f.opacity);
         case LayerSource::VolumeOpacity: return color(f.volume_opacity);
@@ -380,9 +381,9 @@ void Film::add_written(ViewSums& sums, std::size_t pixel, const SampleBuffer& sa
 void Film::add_data(ViewSums& sums, std::size_t pixel, const FirstHit& f, double weight) {
     add_color(sums.volume_opacity[pixel], f.volume_opacity, weight);
     if (!f.hit) return;
-    const std::array<float, 12> values{f.depth,      f.normal.x,   f.normal.y,   f.normal.z,
-                                       f.position.x, f.position.y, f.position.z, f.uv.x,
-                                       f.uv.y,       f.pref.x,     f.pref.y,     f.pref.z};
+    const std::array<float, 14> values{
+        f.depth, f.normal.x, f.normal.y, f.normal.z, f.position.x, f.position.y, f.position.z,
+        f.uv.x,  f.uv.y,     f.pref.x,   f.pref.y,   f.pref.z,     f.motion.x,   f.motion.y};
     for (std::size_t i = 0; i < values.size(); ++i)
         sums.data[pixel][i] += double{values[i]} * weight;
     add_color(sums.opacity[pixel], f.opacity, weight);
@@ -633,6 +634,10 @@ void Film::resolve_data(const ViewSums& sums, const PlannedLayer& layer,
             case LayerSource::Uv:
                 at[0] = value(7, f.uv.x);
                 at[1] = value(8, f.uv.y);
+                break;
+            case LayerSource::Motion:
+                at[0] = value(12, f.motion.x);
+                at[1] = value(13, f.motion.y);
                 break;
             case LayerSource::Alpha: at[0] = static_cast<float>(sums.alpha[i] * norm); break;
             case LayerSource::Opacity: put_color(f.opacity, sums.opacity); break;

@@ -35,6 +35,9 @@ struct FirstHit {
     float depth = 0;         ///< along the viewing axis
     Vec3f normal, position;  ///< world space
     Vec3f pref;              ///< user data Pref, or object space
+    /// Where the point is as the shutter opens and as it closes, world space; set if some layer shows motion.
+    std::array<Vec3f, 2> at_shutter;
+    Vec2f motion;  ///< see screen_motion
     Vec2f uv;
     std::uint32_t id = 0;
     Color opacity;
@@ -175,7 +178,7 @@ class Film {
         std::vector<std::vector<LightSum>> slots;
         std::size_t n_slots = 0;
         /// Data layers: means under a filter, or the nearest sample.
-        std::vector<std::array<double, 12>> data;  ///< depth, normal, position, uv, pref
+        std::vector<std::array<double, 14>> data;  ///< depth, normal, position, uv, pref, motion
         std::vector<Sum> opacity, volume_opacity, shadow, shadow_difference;
         std::vector<double> shadow_mask;
         std::vector<std::vector<std::array<double, 4>>> written;  ///< by number, then pixel

@@ -293,9 +293,9 @@ class Integrator {
     /// Adds up values by channel and densities for a direction.
     [[nodiscard]] Densities evaluate(const Surface& surface, Vec3f wi,
                                      std::span<Color> by_channel) const;
-    /// The same for one mixture alone.
-    [[nodiscard]] float evaluate(const Surface& surface, Vec3f wi, std::uint8_t mixture,
-                                 std::span<Color> by_channel) const;
+    /// The same for the direction that closure `drawn` was sampled in, and its mixture alone.
+    [[nodiscard]] float evaluate(const Surface& surface, std::size_t drawn,
+                                 const LobeSample& sample, std::span<Color> by_channel) const;
     [[nodiscard]] float light_factor(const LightCommon& light, RayType type, int n_scatter) const;
     [[nodiscard]] float clamp_factor(Color total, int n_scatter) const;
     [[nodiscard]] float random(std::uint32_t stream) const {

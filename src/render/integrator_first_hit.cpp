@@ -25,6 +25,12 @@ Vec3f pref_of(const ShadePoint& at) {
     return at.services->object_from_world(at).point(at.position);
 }
 
+/// What layers ask for that takes work.
+void note_wanted(FirstHit& out, const Surface& surface, const AovPlan& plan) {
+    if (plan.wants_pref) out.pref = pref_of(surface.at);
+    if (plan.wants_motion) out.at_shutter = {position_at(surface, 0), position_at(surface, 1)};
+}
+
 /// Light samples that decide about a shadow. A ratio of means of few samples is a little biased toward no shadow.
 constexpr std::uint32_t kShadowSamples = 16;
 /// Streams of random numbers of theirs, apart from those of the path.
@@ -110,7 +116,7 @@ void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& ca
     if (is_black(past)) {
         if (!is_first) return;
         note(out_->first, surface, opacity, camera_from_world);
-        if (scene_.plan.wants_pref) out_->first.pref = pref_of(surface.at);
+        note_wanted(out_->first, surface, scene_.plan);
         if (closures_.shadow_matte() != nullptr) out_->first.shadow = shadow_;
         return;
     }
@@ -120,7 +126,7 @@ void Integrator<Tracker>::note_first_hit(const Surface& surface, const Mat4f& ca
     if (is_first) {
         note(out_->first, behind, clamp(kWhite - shadow_closures_.transparency(), 0, 1),
              camera_from_world);
-        if (scene_.plan.wants_pref) out_->first.pref = pref_of(behind.at);
+        note_wanted(out_->first, behind, scene_.plan);
     }
     if (!marks) return;
     behind.at.ray = &path_.state;

@@ -35,14 +35,17 @@ auto Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi,
 }
 
 template <class Tracker>
-float Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi, std::uint8_t mixture,
-                                    std::span<Color> by_channel) const {
-    const bool agree = sides_agree(surface, wi);
+float Integrator<Tracker>::evaluate(const Surface& surface, std::size_t drawn,
+                                    const LobeSample& sample, std::span<Color> by_channel) const {
+    const bool agree = sides_agree(surface, sample.wi);
     const std::span<const Closure> closures = closures_.closures();
+    const std::uint8_t mixture = mixture_[channel_of_[drawn]];
     float pdf = 0;
     for (std::size_t i = 0; i < closures.size(); ++i) {
         if (mixture_[channel_of_[i]] != mixture) continue;
-        const LobeEval eval = closures_.eval(i, wi);
+        // The sample has brought what its own lobe says.
+        const LobeEval eval =
+            i == drawn ? LobeEval{sample.f, sample.pdf} : closures_.eval(i, sample.wi);
         pdf += probability_[i] * eval.pdf;
         if (agree || has_no_sides(closures[i].model)) by_channel[channel_of_[i]] += eval.f;
     }
@@ -241,20 +244,20 @@ void Integrator<Tracker>::add_light_at_exit(const WalkExit& exit) {
 }
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
-#define LIGHTSIEVE_LIGHTS(Tracker)                                                              \
-    template auto Integrator<Tracker>::evaluate(const Surface&, Vec3f, std::span<Color>) const  \
-        -> Densities;                                                                           \
-    template float Integrator<Tracker>::evaluate(const Surface&, Vec3f, std::uint8_t,           \
-                                                 std::span<Color>) const;                       \
-    template void Integrator<Tracker>::add_light_samples(const Surface&);                       \
-    template void Integrator<Tracker>::ask_light(const Surface&, std::uint32_t, float, Vec2f,   \
-                                                 float);                                        \
-    template float Integrator<Tracker>::low_light_survival(                                     \
-        std::span<const Color>, std::span<const float>, const SceneLight&, Color) const;        \
-    template auto Integrator<Tracker>::visibility(const Surface&, std::uint32_t,                \
-                                                  const LightSample&) -> Visibility;            \
-    template auto Integrator<Tracker>::visibility_along(Ray, const SceneObject*, std::uint32_t) \
-        -> Visibility;                                                                          \
+#define LIGHTSIEVE_LIGHTS(Tracker)                                                               \
+    template auto Integrator<Tracker>::evaluate(const Surface&, Vec3f, std::span<Color>) const   \
+        -> Densities;                                                                            \
+    template float Integrator<Tracker>::evaluate(const Surface&, std::size_t, const LobeSample&, \
+                                                 std::span<Color>) const;                        \
+    template void Integrator<Tracker>::add_light_samples(const Surface&);                        \
+    template void Integrator<Tracker>::ask_light(const Surface&, std::uint32_t, float, Vec2f,    \
+                                                 float);                                         \
+    template float Integrator<Tracker>::low_light_survival(                                      \
+        std::span<const Color>, std::span<const float>, const SceneLight&, Color) const;         \
+    template auto Integrator<Tracker>::visibility(const Surface&, std::uint32_t,                 \
+                                                  const LightSample&) -> Visibility;             \
+    template auto Integrator<Tracker>::visibility_along(Ray, const SceneObject*, std::uint32_t)  \
+        -> Visibility;                                                                           \
     template void Integrator<Tracker>::add_light_at_exit(const WalkExit&);
 LIGHTSIEVE_LIGHTS(AovTracker)
 LIGHTSIEVE_LIGHTS(LogTracker)

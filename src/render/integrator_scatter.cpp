@@ -106,7 +106,7 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
             return false;
         factors[channel_of_[drawn]] = sample.f * (1 / probability_[drawn]);
     } else {
-        pdf = evaluate(surface, sample.wi, mixture_[channel_of_[drawn]], factors);
+        pdf = evaluate(surface, drawn, sample, factors);
         if (!(pdf > 0)) return false;
         for (std::size_t c = 0; c < n_channels_; ++c)
             factors[c] *= 1 / pdf;

@@ -25,13 +25,32 @@ inline KeyBlend blend_at(std::size_t n_keys, float time) {
 /// Placement of an object at a time: matrix and inverse.
 struct Placement {
     const Mat4f &world_from_object, &object_from_world;
+    bool in_place = false;  ///< both are the identity
+
+    [[nodiscard]] Vec3f point_to_world(Vec3f p) const {
+        return in_place ? p : world_from_object.point(p);
+    }
+    [[nodiscard]] Vec3f vector_to_world(Vec3f v) const {
+        return in_place ? v : world_from_object.vector(v);
+    }
+    /// Not normalised.
+    [[nodiscard]] Vec3f normal_to_world(Vec3f n) const {
+        return in_place ? n : object_from_world.normal_by_inverse(n);
+    }
+    [[nodiscard]] Vec3f point_to_object(Vec3f p) const {
+        return in_place ? p : object_from_world.point(p);
+    }
+    [[nodiscard]] Vec3f vector_to_object(Vec3f v) const {
+        return in_place ? v : object_from_world.vector(v);
+    }
 };
 
 /// Calls `body` with the object's placement; matrices of things at rest are not copied.
 template <class Body>
 auto with_placement(const SceneObject& object, float time, const Body& body) {
     if (object.world_from_object.size() == 1)
-        return body(Placement{object.world_from_object[0], object.object_from_world[0]});
+        return body(
+            Placement{object.world_from_object[0], object.object_from_world[0], object.in_place});
     const KeyBlend k = blend_at(object.world_from_object.size(), time);
     const Mat4f m = lerp(object.world_from_object[k.first], object.world_from_object[k.second],
                          k.f),

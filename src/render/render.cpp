@@ -19,6 +19,7 @@
 #include "render/live_view.h"
 #include "render/mattes.h"
 #include "render/memory_use.h"
+#include "render/screen_motion.h"
 #include "scene/graph.h"
 
 namespace lightsieve {
@@ -422,6 +423,9 @@ bool Renderer::take_samples(Worker& worker, const CameraSampler& camera, const B
                                 worker.sample);
         if (worker.integrator.counts.dropped != dropped_before)
             note_dropped(worker, rect.x + x, rect.y + y, i);
+        if (scene_.plan.wants_motion && worker.sample.first.hit)
+            worker.sample.first.motion = screen_motion(
+                camera.camera(), sample, worker.sample.first.at_shutter, scene_.settings);
         remove_exposure(sample, worker.sample.probes);
         camera.weights(sample, worker.weights);
         worker.film.add(x, y, worker.sample, sample_clamp_factor(scene_, worker.sample.beauty),

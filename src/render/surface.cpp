@@ -76,8 +76,7 @@ Vec3f smooth_normal(const TriangleMesh& mesh, std::size_t first, std::array<floa
     Vec3f sum;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3f local = normals[mesh.normal_indices[first + i]];
-        const Vec3f corner =
-            normalize(view.place.object_from_world.normal_by_inverse(local), face_normal);
+        const Vec3f corner = normalize(view.place.normal_to_world(local), face_normal);
         sum += bent_to_viewer(corner * side, view.wo) * weights[i];
     }
     return length_squared(sum) > 0 ? sum * side : face_normal;
@@ -93,9 +92,9 @@ LocalPoint resolve(const TriangleMesh& mesh, const RayHit& hit, const View& view
     out.position = p0 * b0 + p1 * b1 + p2 * b2;
     out.geometric_normal = cross(p1 - p0, p2 - p0);
     if (!mesh.normals.empty())
-        out.shading_normal = smooth_normal(
-            mesh, t, {b0, b1, b2}, view,
-            normalize(view.place.object_from_world.normal_by_inverse(out.geometric_normal)));
+        out.shading_normal =
+            smooth_normal(mesh, t, {b0, b1, b2}, view,
+                          normalize(view.place.normal_to_world(out.geometric_normal)));
     if (!mesh.face.empty()) out.face = mesh.face[hit.primitive];
     if (!mesh.shader_index.empty()) out.shader = mesh.shader_index[hit.primitive];
     if (mesh.uvs.empty() || !view.wants_uv) return out;
@@ -113,7 +112,7 @@ LocalPoint resolve(const TriangleMesh& mesh, const RayHit& hit, const View& view
 }
 
 LocalPoint on_sphere(Vec3f center, float radius, const View& view) {
-    const Vec3f n = normalize(view.place.object_from_world.point(view.along) - center);
+    const Vec3f n = normalize(view.place.point_to_object(view.along) - center);
     LocalPoint out;
     out.position = center + n * radius;  // back onto the sphere: t is only as good as a float
     out.geometric_normal = n;
@@ -153,9 +152,8 @@ LocalPoint resolve(const PointList& points, const RayHit& hit, const View& view)
     } else {
         // Flat, across the ray; uv are those of the square around it.
         const FacingQuad quad = quad_of(points, hit.primitive, center, radius);
-        const Mat4f& to_object = view.place.object_from_world;
-        const Frame frame = facing_frame(quad, -to_object.vector(view.wo));
-        const Vec3f from_center = to_object.point(view.along) - center;
+        const Frame frame = facing_frame(quad, -view.place.vector_to_object(view.wo));
+        const Vec3f from_center = view.place.point_to_object(view.along) - center;
         const float x = dot(from_center, frame.x), y = dot(from_center, frame.y);
         out.position = center + frame.x * x + frame.y * y;
         out.geometric_normal = frame.z;
@@ -170,7 +168,7 @@ LocalPoint resolve(const PointList& points, const RayHit& hit, const View& view)
 }
 
 LocalPoint resolve(const SimpleShape& shape, const RayHit& /*hit*/, const View& view) {
-    const SimplePoint at = simple_point(shape, view.place.object_from_world.point(view.along));
+    const SimplePoint at = simple_point(shape, view.place.point_to_object(view.along));
     LocalPoint out;
     out.position = at.position;
     out.geometric_normal = at.normal;
@@ -221,13 +219,12 @@ LocalPoint resolve(const CurveList& curves, const RayHit& hit, const View& view)
     const float u = std::clamp(hit.barycentric.x, 0.0F, 1.0F);
     const CurvePoint at = curve_at(curves, curves.radii, segment.first, u, view.time);
     const Vec3f along = normalize(at.derivative, {1, 0, 0});
-    const Mat4f& to_object = view.place.object_from_world;
 
     // The cross-section as the viewer sees it: z toward the viewer, y across.
-    const Vec3f seen = to_object.vector(view.wo);
+    const Vec3f seen = view.place.vector_to_object(view.wo);
     const Vec3f z = normalize(seen - along * dot(seen, along), Frame::from_z(along).x);
     const Vec3f y = cross(z, along);
-    const Vec3f from_center = to_object.point(view.along) - at.center;
+    const Vec3f from_center = view.place.point_to_object(view.along) - at.center;
 
     LocalPoint out;
     const float radius = std::max(at.radius, 1e-20F);
@@ -255,7 +252,7 @@ LocalPoint resolve(const CurveList& curves, const RayHit& hit, const View& view)
             const std::size_t first = segment.first, last = first + curves.n_controls() - 1;
             const Vec3f n = normals[first] * (1 - u) + normals[last] * u;
             out.geometric_normal = normalize(n - along * dot(n, along), z);
-            out.position = to_object.point(view.along);
+            out.position = view.place.point_to_object(view.along);
             out.curve_offset = across(cross(out.geometric_normal, along));
             if (dot(out.geometric_normal, z) < 0) out.curve_offset = -out.curve_offset;
             break;
@@ -293,28 +290,27 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     out.coverage = local.coverage;
     const Vec3f wo = view.wo;
     const float outside = object.invert_normals ? -1.0F : 1.0F;
-    const Vec3f geometric =
-        normalize(place.object_from_world.normal_by_inverse(local.geometric_normal) * outside);
+    const Vec3f geometric = normalize(place.normal_to_world(local.geometric_normal) * outside);
     const Vec3f shading = local.shading_normal == Vec3f{}
                               ? geometric
                               : normalize(local.shading_normal * outside, geometric);
     ShadePoint& at = out.at;
-    at.position = place.world_from_object.point(local.position);
+    at.position = place.point_to_world(local.position);
     at.wo = wo;
     at.geometric_normal = geometric;
     at.entering = dot(geometric, wo) >= 0;
     out.outward = at.entering ? geometric : -geometric;
     at.normal = dot(shading, out.outward) < 0 ? -shading : shading;
     const bool has_uv = !(local.dp_du == Vec3f{});
-    const Vec3f tangent = has_uv ? place.world_from_object.vector(local.dp_du) : Vec3f{};
+    const Vec3f tangent = has_uv ? place.vector_to_world(local.dp_du) : Vec3f{};
     out.frame = has_uv ? Frame::from_z_x(at.normal, tangent) : Frame::from_z_level(at.normal);
     at.tangent = out.frame.x;
     if (has_uv && !object.reads_coordinates) out.frame = Frame::from_z_level(at.normal);
     at.uv = local.uv;
     at.barycentric = hit.barycentric;
     if (object.wants_uv) {
-        at.dp_du = place.world_from_object.vector(local.uv_du);
-        at.dp_dv = place.world_from_object.vector(local.uv_dv);
+        at.dp_du = place.vector_to_world(local.uv_du);
+        at.dp_dv = place.vector_to_world(local.uv_dv);
     }
     at.width = footprint.width + footprint.spread * hit.t;
     at.ray_length = hit.t;
@@ -332,7 +328,7 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
         at.curve_offset = local.curve_offset;
         at.tangent = normalize(tangent, out.frame.x);
         out.round_fibre = local.round;
-        out.fibre_center = place.world_from_object.point(local.center);
+        out.fibre_center = place.point_to_world(local.center);
     }
     at.shape_id = object.id;
     at.time = ray.time;
@@ -341,14 +337,47 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
     return out;
 }
 
+// How far the point of a primitive goes from one time to another, object space.
+
+Vec3f way(const TriangleMesh& mesh, const ShadePoint& at, float from, float to) {
+    if (mesh.positions.size() == 1) return {};
+    const AtTime before(mesh.positions, from), after(mesh.positions, to);
+    const float b1 = at.barycentric.x, b2 = at.barycentric.y;
+    const std::array<float, 3> weights{1 - b1 - b2, b1, b2};
+    Vec3f out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t vertex = mesh.indices[std::size_t{at.primitive} * 3 + i];
+        out += (after[vertex] - before[vertex]) * weights[i];
+    }
+    return out;
+}
+
+Vec3f way(const SphereList& spheres, const ShadePoint& at, float from, float to) {
+    return AtTime(spheres.centers, to)[at.primitive] - AtTime(spheres.centers, from)[at.primitive];
+}
+
+Vec3f way(const PointList& points, const ShadePoint& at, float from, float to) {
+    return AtTime(points.centers, to)[at.primitive] - AtTime(points.centers, from)[at.primitive];
+}
+
+Vec3f way(const CurveList& curves, const ShadePoint& at, float from, float to) {
+    const std::size_t first = curves.segments[at.primitive].first;
+    const float u = std::clamp(at.barycentric.x, 0.0F, 1.0F);
+    return curve_at(curves, curves.radii, first, u, to).center -
+           curve_at(curves, curves.radii, first, u, from).center;
+}
+
+Vec3f way(const SimpleShape& /*shape*/, const ShadePoint& /*at*/, float /*from*/, float /*to*/) {
+    return {};
+}
+
 LightHit light_hit_at(const Placement& place, const SceneObject& object, const Ray& ray,
                       const RayHit& hit) {
     const View view{place, ray.origin + ray.direction * hit.t, -ray.direction, ray.time, true};
     const LocalPoint local =
         std::visit([&](const auto& g) { return resolve(g, hit, view); }, object.geometry->data);
-    const Vec3f normal =
-        normalize(place.object_from_world.normal_by_inverse(local.geometric_normal));
-    return {place.world_from_object.point(local.position), normal, local.uv, hit.primitive, hit.t};
+    const Vec3f normal = normalize(place.normal_to_world(local.geometric_normal));
+    return {place.point_to_world(local.position), normal, local.uv, hit.primitive, hit.t};
 }
 
 }  // namespace
@@ -396,6 +425,18 @@ LightHit make_light_hit(const SceneObject& object, const Ray& ray, const RayHit&
     return with_placement(object, ray.time, [&](const Placement& place) {
         return light_hit_at(place, object, ray, hit);
     });
+}
+
+Vec3f position_at(const Surface& surface, float time) {
+    const ShadePoint& at = surface.at;
+    const SceneObject& object = *surface.object;
+    const Vec3f here = with_placement(object, at.time, [&](const Placement& place) {
+        return place.point_to_object(at.position);
+    });
+    const Vec3f there = here + std::visit([&](const auto& g) { return way(g, at, at.time, time); },
+                                          object.geometry->data);
+    return with_placement(object, time,
+                          [&](const Placement& place) { return place.point_to_world(there); });
 }
 
 Mat4f placement_at(const SceneObject& object, float time) {

@@ -50,6 +50,9 @@ void meet(Surface& surface, RayType type);
 [[nodiscard]] LightHit make_light_hit(const SceneObject& object, const Ray& ray,
                                       const RayHit& hit);
 
+/// Where the surface's point is at another time: 0 as the shutter opens, 1 as it closes. World space.
+[[nodiscard]] Vec3f position_at(const Surface& surface, float time);
+
 /// Placement of an object at a time within the shutter.
 [[nodiscard]] Mat4f placement_at(const SceneObject& object, float time);
 

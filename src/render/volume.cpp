@@ -241,7 +241,7 @@ void look_into(const SceneVolume& volume, Vec3f position, Vec3f wo, float time, 
     if (volume.grids() == nullptr) return volume.shader().closures(at, out);
     const PointLookup channels(*volume.grids(),
                                with_placement(volume.object, time, [&](const Placement& place) {
-                                   return place.object_from_world.point(position);
+                                   return place.point_to_object(position);
                                }));
     at.volume = &channels;
     volume.shader().closures(at, out);
@@ -249,8 +249,7 @@ void look_into(const SceneVolume& volume, Vec3f position, Vec3f wo, float time, 
 
 ObjectRay to_object(const SceneVolume& volume, const Ray& ray) {
     return with_placement(volume.object, ray.time, [&](const Placement& place) {
-        return ObjectRay{place.object_from_world.point(ray.origin),
-                         place.object_from_world.vector(ray.direction)};
+        return ObjectRay{place.point_to_object(ray.origin), place.vector_to_object(ray.direction)};
     });
 }
 
