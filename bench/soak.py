@@ -4,8 +4,8 @@
     python bench/soak.py [--minutes N] [--threads N]
 
 A round renders every scene of tests/scenes and scenes once, small and with another seed each time: with several AOVs,
-files, checkpoints, adaptive samples, and one render in each round that is stopped halfway. Memory is what the process has resident at the end
-of a round. The first rounds fill caches (textures, tables, the allocator's own); after them it should stay. Prints a line a
+files, checkpoints, adaptive samples, and one render in each round that is stopped halfway. Memory is what the process itself has resident at the
+end of a round: not its libraries, of which the system keeps more or less in memory as it likes. The first rounds fill caches (textures, tables, the allocator's own); after them it should stay. Prints a line a
 minute, and at the end the trend of the later half in MB an hour (least squares).
 """
 
@@ -27,9 +27,9 @@ SCENES = [ROOT / "scenes" / "showcase.ass", *sorted((ROOT / "tests" / "scenes").
 
 
 def resident() -> float:
-    """Memory that the process has now [MB]."""
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * resource.getpagesize() / 1e6
+    """Memory that the process has now, without what is a file's [MB]."""
+    resident_pages, file_pages = Path("/proc/self/statm").read_text().split()[1:3]
+    return (int(resident_pages) - int(file_pages)) * resource.getpagesize() / 1e6
 
 
 def one_round(seed: int, folder: Path, threads: int) -> None:

@@ -13,7 +13,27 @@ from mathutils import Matrix, Vector
 from renderer import Rendered, Setting, sphere_mesh, triangles
 from scenes.description import Ball, Camera, Color, Material, Panel, Scene
 
-PASSES = ["diffuse_direct", "diffuse_indirect", "diffuse_color", "glossy_direct", "glossy_indirect", "glossy_color", "transmission_direct", "transmission_indirect", "transmission_color", "subsurface_direct", "subsurface_indirect", "subsurface_color", "emit", "environment", "z", "normal", "position", "object_index", "material_index"]
+PASSES = [
+    "diffuse_direct",
+    "diffuse_indirect",
+    "diffuse_color",
+    "glossy_direct",
+    "glossy_indirect",
+    "glossy_color",
+    "transmission_direct",
+    "transmission_indirect",
+    "transmission_color",
+    "subsurface_direct",
+    "subsurface_indirect",
+    "subsurface_color",
+    "emit",
+    "environment",
+    "z",
+    "normal",
+    "position",
+    "object_index",
+    "material_index",
+]
 
 
 def _look_at(thing: Any, camera: Camera) -> None:

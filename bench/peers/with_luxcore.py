@@ -11,7 +11,22 @@ import pyluxcore
 from renderer import Rendered, Setting, sphere_mesh, triangles
 from scenes.description import Ball, Color, Material, Mesh, Panel, Scene
 
-LAYERS = ["EMISSION", "DIRECT_DIFFUSE", "DIRECT_GLOSSY", "INDIRECT_DIFFUSE", "INDIRECT_GLOSSY", "INDIRECT_SPECULAR", "CAUSTIC", "ALBEDO", "DEPTH", "POSITION", "SHADING_NORMAL", "GEOMETRY_NORMAL", "MATERIAL_ID", "OBJECT_ID"]
+LAYERS = [
+    "EMISSION",
+    "DIRECT_DIFFUSE",
+    "DIRECT_GLOSSY",
+    "INDIRECT_DIFFUSE",
+    "INDIRECT_GLOSSY",
+    "INDIRECT_SPECULAR",
+    "CAUSTIC",
+    "ALBEDO",
+    "DEPTH",
+    "POSITION",
+    "SHADING_NORMAL",
+    "GEOMETRY_NORMAL",
+    "MATERIAL_ID",
+    "OBJECT_ID",
+]
 NO_ROULETTE = 1000
 
 Settings = dict[str, object]
