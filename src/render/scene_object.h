@@ -51,7 +51,7 @@ struct SceneObject {
     Name name;
     std::uint64_t instance = 0;  ///< which of the instances that share the lineage
     std::uint32_t id = 0;
-    bool in_place = false;  ///< its placement is the identity, which most exporters write: no sums
+    bool in_place = false;  ///< its placement is the identity: nothing needs to be transformed
     std::uint8_t visibility = 255, sidedness = 255;
     bool matte = false, invert_normals = false, receive_shadows = true, self_shadows = true;
     bool may_be_transparent = false;  ///< rays may pass straight through

@@ -94,6 +94,28 @@ TEST(MotionVector, FollowsEveryKindOfShapeThatChangesByItself) {
     }
 }
 
+TEST(MotionVector, IsThatOfOneSurfaceThroughAFilterThatKeepsOneSample) {
+    // A bar before a wall, slanted so that its edges cross pixels; they move by 2 and by 6 pixels.
+    const std::string text =
+        frame_text(kSize, kSize, 3,
+                   node("ortho_camera", "cam",
+                        " screen_window_min -8 -8\n screen_window_max 8 8" + kShutter),
+                   outputs({"RGBA RGBA f d", "motionvector RGB one d"})) +
+        node("closest_filter", "one", "") + kGlow + wall(-5, two_matrices({}, {1, 0, 0})) +
+        quad("bar", {-3, -9, -4}, {2, -9, -4}, {5, 9, -4}, {0, 9, -4}, "glow",
+             two_matrices({}, {3, 0, 0}));
+    const Picture picture = render(text);
+    std::array<int, 2> n{};
+    for (std::size_t i = 0; i < picture.n_pixels(); ++i) {
+        const float x = picture.color("motionvector", i).r;
+        const bool of_bar = x > 4;
+        ++n[of_bar ? 1 : 0];
+        ASSERT_NEAR(x, of_bar ? 6 : 2, 2e-3) << "pixel " << i;
+    }
+    EXPECT_GT(n[0], 100);
+    EXPECT_GT(n[1], 100);
+}
+
 TEST(MotionVector, ChangesNoBitOfTheBeauty) {
     const std::string text = parallel() + wall(-5, two_matrices({-1, 0, 0}, {2, 0.5F, 0}));
     EXPECT_TRUE(check_identical(render(text), "RGBA", seen(text), "RGBA"));
