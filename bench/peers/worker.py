@@ -131,8 +131,10 @@ def run(job: Job) -> Measured:
     least = min(r.seconds / r.spp for r in renders)
     single = min(r.seconds for r in singles)
     first = renders[0]
-    # What a render takes even for one sample is no part of the rate.
-    grows = max(least * first.spp - single, 0.01 * least) / (first.spp - singles[0].spp)
+    # What a render takes even for one sample is no part of the rate, unless renders are so short that it is most of them.
+    grows = (least * first.spp - single) / (first.spp - singles[0].spp)
+    if grows < 0.5 * least:
+        grows = least
     peak = measure.peak_mb()
     mse, mean = 0.0, [0.0, 0.0, 0.0]
     if job.reference_spp:

@@ -9,33 +9,31 @@ from __future__ import annotations
 
 import math
 
-from scenes.description import BLACK, Ball, Camera, Material, Panel, Point, Scene, mesh
+from scenes.description import BLACK, Ball, Camera, Color, Material, Panel, Point, Scene, mesh
 
 LAMP_SIZE = 0.5
 LAMP_HEIGHT = 0.995
 LAMP_RADIANCE = (17.0, 14.0, 10.0)
 EDGE_TINT = 0.9
 
+
+def _metal(color: Color, roughness: float) -> Material:
+    return Material(
+        base_color=color,
+        metalness=1,
+        edge_tint=EDGE_TINT,
+        specular=1,
+        roughness=roughness,
+        caustics=True,
+    )
+
+
 MATERIALS = {
     "grey": Material(base_color=(0.73, 0.73, 0.73)),
     "red": Material(base_color=(0.63, 0.065, 0.05)),
     "green": Material(base_color=(0.14, 0.45, 0.091)),
-    "mirror": Material(
-        base_color=(0.9, 0.9, 0.9),
-        metalness=1,
-        edge_tint=EDGE_TINT,
-        specular=1,
-        roughness=0,
-        caustics=True,
-    ),
-    "brushed": Material(
-        base_color=(0.95, 0.64, 0.54),
-        metalness=1,
-        edge_tint=EDGE_TINT,
-        specular=1,
-        roughness=0.3,
-        caustics=True,
-    ),
+    "mirror": _metal((0.9, 0.9, 0.9), 0),
+    "brushed": _metal((0.95, 0.64, 0.54), 0.3),
     "clear": Material(base=0, transmission=1, specular=1, roughness=0, caustics=True),
     "black": Material(base_color=BLACK),
 }

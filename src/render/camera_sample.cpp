@@ -7,22 +7,17 @@ enum CameraPair : std::uint32_t { kFilterPair = 0, kLensPair = 1, kTimePair = 2 
 }  // namespace
 
 CameraSample CameraSampler::sample(int x, int y, std::uint32_t index) const {
-    CameraSample out{Sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), index,
-                             scene_.settings.seed),
-                     {},
-                     0,
-                     {},
-                     {},
-                     {},
-                     {},
-                     {}};
+    CameraSample out{.sampler =
+                         Sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                 index, scene_.settings.seed)};
     const PixelFilter& filter = *scene_.plan.views[pass_.sampling_view].filter;
     const std::array<Vec2f, 4> points = out.sampler.at2x4(0);
     out.offset = filter.sample(points[kFilterPair]).offset;
-    const Vec2f film = out.film = {
+    const Vec2f film{
         (static_cast<float>(x) + 0.5F + out.offset.x) / static_cast<float>(scene_.settings.width),
         (static_cast<float>(y) + 0.5F + out.offset.y) /
             static_cast<float>(scene_.settings.height)};
+    out.film = film;
     out.time = pass_.camera->sample_time(film, points[kTimePair].x);
     out.lens = points[kLensPair];
     out.ray = pass_.camera->ray(film, out.lens, out.time);

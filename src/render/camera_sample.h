@@ -14,12 +14,12 @@ namespace lightsieve {
 /// Everything about one camera sample but its light.
 struct CameraSample {
     Sampler sampler;
-    CameraRay ray;
+    CameraRay ray{};
     float time = 0;
-    Mat4f camera_from_world;
-    Vec2f offset;      ///< from the pixel's centre [pixels]
-    Vec2f film, lens;  ///< as Camera::ray takes them
-    RayState state;    ///< what shaders see of it: pixel, place in it
+    Mat4f camera_from_world{};
+    Vec2f offset{};        ///< from the pixel's centre [pixels]
+    Vec2f film{}, lens{};  ///< as Camera::ray takes them
+    RayState state{};      ///< what shaders see of it: pixel, place in it
 };
 
 /// Makes the camera samples of one pass.

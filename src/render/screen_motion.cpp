@@ -6,11 +6,8 @@
 namespace lightsieve {
 namespace {
 
-/// How far the ray of a film place passes beside the point, across it and as a share of the distance; nothing if there is no
-/// ray or the point lies behind it.
-std::optional<Vec2f> miss(const Camera& camera, Vec3f point, Vec2f film, Vec2f lens, float time,
-                          const Frame& across) {
-    const CameraRay ray = camera.ray(film, lens, time);
+/// How far a ray passes beside the point, across it and as a share of the distance; nothing if the point lies behind it.
+std::optional<Vec2f> miss(const CameraRay& ray, Vec3f point, const Frame& across) {
     const Vec3f to_point = point - ray.origin;
     const float along = dot(to_point, ray.direction);
     if (!(along > 0)) return std::nullopt;
@@ -30,14 +27,15 @@ std::optional<Vec2f> film_of(const Camera& camera, Vec3f point, Vec2f lens, floa
     Vec2f film = guess;
     float size = kInfinity;
     for (int i = 0; i < kMostSteps; ++i) {
-        const Vec3f direction = camera.ray(film, lens, time).direction;
-        if (!is_finite(direction) || !(length_squared(direction) > 0)) return std::nullopt;
-        const Frame across = Frame::from_z(direction);
-        const auto at = [&](Vec2f place) {
-            return miss(camera, point, place, lens, time, across);
+        const auto ray_at = [&](float dx, float dy) {
+            return camera.ray(film + Vec2f{dx, dy}, lens, time);
         };
-        const std::optional<Vec2f> here = at(film), right = at(film + Vec2f{kDifference, 0}),
-                                   down = at(film + Vec2f{0, kDifference});
+        const CameraRay ray = ray_at(0, 0);
+        if (!is_finite(ray.direction) || !(length_squared(ray.direction) > 0)) return std::nullopt;
+        const Frame across = Frame::from_z(ray.direction);
+        const std::optional<Vec2f> here = miss(ray, point, across),
+                                   right = miss(ray_at(kDifference, 0), point, across),
+                                   down = miss(ray_at(0, kDifference), point, across);
         if (!here || !right || !down) return std::nullopt;
         const Vec2f dx = (*right - *here) * (1 / kDifference),
                     dy = (*down - *here) * (1 / kDifference);

@@ -341,23 +341,18 @@ Surface surface_at(const Placement& place, const SceneObject& object, const Ray&
 
 Vec3f way(const TriangleMesh& mesh, const ShadePoint& at, float from, float to) {
     if (mesh.positions.size() == 1) return {};
-    const AtTime before(mesh.positions, from), after(mesh.positions, to);
+    const std::array<Vec3f, 3> before = triangle_corners(mesh, at.primitive, from),
+                               after = triangle_corners(mesh, at.primitive, to);
     const float b1 = at.barycentric.x, b2 = at.barycentric.y;
-    const std::array<float, 3> weights{1 - b1 - b2, b1, b2};
-    Vec3f out;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t vertex = mesh.indices[std::size_t{at.primitive} * 3 + i];
-        out += (after[vertex] - before[vertex]) * weights[i];
-    }
-    return out;
+    return (after[0] - before[0]) * (1 - b1 - b2) + (after[1] - before[1]) * b1 +
+           (after[2] - before[2]) * b2;
 }
 
-Vec3f way(const SphereList& spheres, const ShadePoint& at, float from, float to) {
-    return AtTime(spheres.centers, to)[at.primitive] - AtTime(spheres.centers, from)[at.primitive];
-}
-
-Vec3f way(const PointList& points, const ShadePoint& at, float from, float to) {
-    return AtTime(points.centers, to)[at.primitive] - AtTime(points.centers, from)[at.primitive];
+/// Spheres and points.
+template <class Shape>
+    requires requires(const Shape& shape) { shape.centers; }
+Vec3f way(const Shape& shape, const ShadePoint& at, float from, float to) {
+    return AtTime(shape.centers, to)[at.primitive] - AtTime(shape.centers, from)[at.primitive];
 }
 
 Vec3f way(const CurveList& curves, const ShadePoint& at, float from, float to) {
