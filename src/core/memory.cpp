@@ -4,6 +4,10 @@
 #include <fstream>
 #include <limits>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace lightsieve {
 
 namespace {
@@ -30,6 +34,12 @@ std::size_t status_of(const std::string& root, const char* key) {
 
 std::size_t resident_memory(const std::string& root) { return status_of(root, "VmRSS:"); }
 std::size_t peak_memory(const std::string& root) { return status_of(root, "VmHWM:"); }
+
+void release_freed_memory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
 
 std::size_t available_memory(const std::string& root) {
     const std::size_t kilobytes = number_in(root + "/proc/meminfo", "MemAvailable:");

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
+#include <thread>
 #include <vector>
 
 namespace lightsieve {
@@ -39,6 +41,24 @@ TEST(Memory, WhatTheProcessHolds) {
     EXPECT_GE(peak_memory(), resident_memory());
     EXPECT_EQ(resident_memory("/nowhere"), 0U);
 }
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+// Small blocks of a thread, freed but for every thousandth: what keeps its heap from shrinking by itself.
+TEST(Memory, WhatThreadsFreedGoesBackToTheSystem) {
+    constexpr std::size_t kBlocks = 64 * 1024, kBlock = 1024;
+    std::vector<std::unique_ptr<char[]>> blocks(kBlocks);
+    std::thread([&] {
+        for (auto& block : blocks) {
+            block = std::make_unique<char[]>(kBlock);
+        }
+    }).join();
+    for (std::size_t i = 0; i < kBlocks; ++i)
+        if (i % 1000 != 999) blocks[i].reset();
+    const std::size_t before = resident_memory();
+    release_freed_memory();
+    EXPECT_LT(resident_memory() + kBlocks * kBlock / 2, before);
+}
+#endif
 
 }  // namespace
 }  // namespace lightsieve

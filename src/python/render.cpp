@@ -14,6 +14,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/memory.h"
 #include "lpe/path.h"
 #include "nodes/all_nodes.h"
 #include "python/errors.h"
@@ -51,6 +52,13 @@ class CompiledScene {
             false;  // reading and compiling cannot be ended early: Ctrl-C is raised when they are done
         run_interruptible([&] { compile(path, strict, assignments); }, stop, {});
     }
+    ~CompiledScene() {
+        scene_.reset();
+        graph_.reset();
+        release_freed_memory();
+    }
+    CompiledScene(const CompiledScene&) = delete;
+    CompiledScene& operator=(const CompiledScene&) = delete;
 
     [[nodiscard]] bool usable() const { return scene_ != nullptr; }
     [[nodiscard]] nb::tuple diagnostics() const { return to_python(diagnostics_.items()); }
