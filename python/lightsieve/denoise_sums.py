@@ -15,16 +15,18 @@ import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
 
-# Half the side of the window that errors are averaged over [pixels]: enough pixels for a mean, few
-# enough that an edge here says nothing of the wall beside it.
-ERROR_RADIUS = 4
+# Half the side of the window that errors are averaged over [pixels]. Wide: where light is rare, most
+# of what a layer may be off is told by neighbours that were hit.
+ERROR_RADIUS = 12
 # Half the side of the window that noise is averaged out in before: what its pixels have in common
 # is no noise, for each camera sample belongs to one pixel.
 NOISE_RADIUS = 2
-# No layer is known better than this part of its own brightness; and none is off by more than that:
-# what is taken away at the rim of a lamp says nothing of the dark beside it.
-LEAST_RELATIVE_ERROR = 1e-3
-MOST_RELATIVE_ERROR = 0.3
+# Half the side of the window in which a layer must be black for its middle to stay black.
+DARK_RADIUS = 4
+# No layer is known better than this part of the brightness around; and none is off by much more
+# than all it has: what is taken away at the rim of a lamp says nothing of the dark beside it.
+LEAST_RELATIVE_ERROR = 0.03
+MOST_RELATIVE_ERROR = 1.0
 # How strongly values are kept above 0: one that wants to be 0 becomes a hundredth of its error.
 BARRIER = 1e-4
 # What a sum may be off, as a part of its parts: about the rounding of 32-bit floats.
@@ -148,9 +150,24 @@ def box_mean(picture: npt.NDArray[np.floating], radius: int) -> Array:
         pad = [(0, 0)] * out.ndim
         pad[axis] = (radius, radius)
         padded = np.pad(out, pad, mode="symmetric")
-        n = out.shape[axis]
-        shifted = (padded.take(range(i, i + n), axis=axis) for i in range(2 * radius + 1))
-        out = np.add.reduce(list(shifted)) / (2 * radius + 1)
+        total, step = np.moveaxis(padded, axis, 0), 1
+        # A sum of 25 neighbours is one of 5 sums of 5.
+        for n_terms in _factors(2 * radius + 1):
+            n = len(total) - (n_terms - 1) * step
+            total = sum((total[i * step :][:n] for i in range(1, n_terms)), start=total[:n])
+            step *= n_terms
+        out = np.moveaxis(total, 0, axis) / (2 * radius + 1)
+    return out
+
+
+def _factors(number: int) -> list[int]:
+    """Its prime factors, rising."""
+    out, factor = [], 2
+    while number > 1:
+        while number % factor == 0:
+            out.append(factor)
+            number //= factor
+        factor += 1
     return out
 
 
@@ -168,16 +185,18 @@ def squared_error(noisy: npt.NDArray[np.floating], denoised: npt.NDArray[np.floa
 
     Example:
         >>> float(squared_error(np.ones((8, 8)), np.ones((8, 8)))[0, 0].round(9))
-        1e-06
+        0.0009
     """
     removed = box_mean(np.asarray(noisy, np.float64) - denoised, NOISE_RADIUS)
-    level = box_mean(np.abs(noisy), ERROR_RADIUS)
+    brightness = np.abs(noisy)
+    level = box_mean(brightness, ERROR_RADIUS)
     error = box_mean(removed**2, ERROR_RADIUS)
     most = (MOST_RELATIVE_ERROR * np.asarray(denoised, np.float64)) ** 2
     # Half of the harmonic mean: like the smaller of the two, without a step between them.
     error *= np.divide(most, error + most, out=np.zeros_like(error), where=most > 0)
-    out: Array = error + (LEAST_RELATIVE_ERROR * level) ** 2
-    return out
+    error += (LEAST_RELATIVE_ERROR * level) ** 2
+    error[box_mean(brightness, DARK_RADIUS) == 0] = 0
+    return error
 
 
 def without_light(errors: Array, matrix: Array) -> npt.NDArray[np.bool_]:

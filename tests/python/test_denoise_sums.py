@@ -92,15 +92,23 @@ def test_box_mean_keeps_what_is_even_and_mirrors_the_border() -> None:
     assert box_mean(row, 1)[0].tolist() == pytest.approx([4 / 3, 2, 3, 11 / 3])
 
 
+@pytest.mark.parametrize("radius", [0, 1, 4, 7, 12])
+def test_box_mean_is_the_mean_of_a_square(radius: int) -> None:
+    picture = np.random.default_rng(3).random((40, 30, 2))
+    around = picture[20 - radius : 21 + radius, 15 - radius : 16 + radius]
+    assert box_mean(picture, radius)[20, 15] == pytest.approx(around.mean(axis=(0, 1)))
+
+
 def test_noise_that_was_taken_away_counts_less_than_detail() -> None:
     """Equal squares were taken away; only those that neighbours have in common are an error."""
     rng = np.random.default_rng(1)
-    noise = rng.normal(0, 0.1, (64, 64))
-    detail = np.where((np.arange(64) // 8) % 2, 0.1, -0.1)[None, :] * np.ones((64, 1))
+    noise = rng.normal(0, 0.5, (64, 64))
+    detail = np.where((np.arange(64) // 16) % 2, 0.5, -0.5)[None, :] * np.ones((64, 1))
     ones = np.ones((64, 64))
-    of_noise = squared_error(ones + noise, ones).mean()
-    of_detail = squared_error(ones + detail, ones).mean()
-    assert of_noise == pytest.approx(0.1**2 / 25, rel=0.1)
+    known = LEAST_RELATIVE_ERROR**2
+    of_noise = squared_error(ones + noise, ones).mean() - known
+    of_detail = squared_error(ones + detail, ones).mean() - known
+    assert of_noise == pytest.approx(0.5**2 / 25, rel=0.1)
     assert of_detail > 10 * of_noise
 
 
