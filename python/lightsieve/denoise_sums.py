@@ -15,8 +15,8 @@ import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
 
-# Half the side of the window that errors are averaged over [pixels]. Wide: where light is rare, most
-# of what a layer may be off is told by neighbours that were hit.
+# Half the side of the window that errors are averaged over [pixels]. Wide: where light is rare,
+# most of what a layer may be off is told by neighbours that were hit.
 ERROR_RADIUS = 12
 # Half the side of the window that noise is averaged out in before: what its pixels have in common
 # is no noise, for each camera sample belongs to one pixel.
