@@ -18,7 +18,8 @@ CameraSample CameraSampler::sample(int x, int y, std::uint32_t index) const {
         (static_cast<float>(y) + 0.5F + out.offset.y) /
             static_cast<float>(scene_.settings.height)};
     out.film = film;
-    out.time = pass_.camera->sample_time(film, points[kTimePair].x);
+    out.time = scene_.settings.instant ? *scene_.settings.instant
+                                       : pass_.camera->sample_time(film, points[kTimePair].x);
     out.lens = points[kLensPair];
     out.ray = pass_.camera->ray(film, out.lens, out.time);
     out.state.x = x;

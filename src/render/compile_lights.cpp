@@ -48,8 +48,13 @@ void Compiler::read_shutter() {
     const auto* start = camera->find<float>("shutter_start");
     const auto* end = camera->find<float>("shutter_end");
     if (start == nullptr || end == nullptr) return;
-    scene_->settings.shutter_start = *start;
-    scene_->settings.shutter_end = *end;
+    RenderSettings& s = scene_->settings;
+    s.shutter_start = *start;
+    s.shutter_end = *end;
+    if (!option("ignore_motion_blur", false)) return;
+    const float length = *end - *start;
+    const float time = length > 0 ? (option("reference_time", 0.0F) - *start) / length : 0;
+    s.instant = std::fmin(std::fmax(time, 0.0F), kOneMinusEpsilon);  // what is no number is 0
 }
 
 std::vector<std::uint32_t> Compiler::indices_of_light(NodeRef light) const {
@@ -78,6 +83,7 @@ std::vector<Mat4f> Compiler::light_stops(const NodeInstance& node) {
         const std::size_t i = std::min(static_cast<std::size_t>(k), keys.size() - 2);
         return blend(keys[i], keys[i + 1], k - static_cast<float>(i));
     };
+    if (scene_->settings.instant) return {at(*scene_->settings.instant)};
     if (common.camera > 0 || common.transmission > 0) {
         diagnostics_.warning(Code::ParamPending,
                              "light \"" + node.name().str() +

@@ -142,10 +142,14 @@ void Compiler::check_motion() {
     const RenderSettings& s = scene_->settings;
     if (!scene_->plan.wants_motion || s.shutter_end > s.shutter_start) return;
     const NodeInstance* camera = default_camera();
+    const std::string_view hint =
+        s.instant ? "with ignore_motion_blur, reference_time must lie within the shutter of every "
+                    "camera, from shutter_start to shutter_end"
+                  : "give the camera a shutter_end after its shutter_start, for example 0 and 1; "
+                    "options.ignore_motion_blur on keeps the picture sharp";
     diagnostics_.warning(
         Code::OutputStill, "motionvector is zero everywhere: the shutter opens for no time",
-        camera != nullptr ? camera->where("shutter_end") : SourceSpan{},
-        "give the camera a shutter_end after its shutter_start, for example 0 and 1");
+        camera != nullptr ? camera->where("shutter_end") : SourceSpan{}, std::string(hint));
 }
 
 /// Deep files hold light, of one camera.

@@ -32,6 +32,10 @@ TEST(MovingLights, BringTheMeanOfTheirWay) {
     EXPECT_TRUE(
         check_constant(render(scene(" shutter_start 0.5\n shutter_end 0.5", "", "point_light")),
                        "RGBA", Color::grey(0.25F), 1e-4));
+    // The same by the option: nothing is blurred, and nothing to warn of where the light is seen.
+    std::string sharp = scene(open, "camera 1", "point_light");
+    sharp.insert(sharp.find("options") + 9, " ignore_motion_blur on\n reference_time 0.5\n");
+    EXPECT_TRUE(check_constant(render(sharp), "RGBA", Color::grey(0.25F), 1e-4));
     // A ball of light is as bright as a point.
     EXPECT_TRUE(check_mean(render(scene(open, " radius 0.2", "point_light")), "RGBA",
                            Color::grey(0.176777F), 0.01));

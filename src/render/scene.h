@@ -83,6 +83,8 @@ struct RenderSettings {
     float low_light_threshold = 0.001F;  ///< light samples below it are traced only sometimes
     int roulette_depth = 4;
     float shutter_start = 0, shutter_end = 0;
+    /// ignore_motion_blur: all samples are taken at this time [0,1) within the shutter.
+    std::optional<float> instant;
     bool dielectric_priorities = true;
 };
 

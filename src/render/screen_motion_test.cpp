@@ -116,6 +116,25 @@ TEST(MotionVector, IsThatOfOneSurfaceThroughAFilterThatKeepsOneSample) {
     EXPECT_GT(n[1], 100);
 }
 
+// What compositors blur by themselves: a sharp picture, and vectors of what would have blurred it.
+TEST(MotionVector, IsThereWithoutMotionBlurToo) {
+    const std::string bar = quad("bar", {-2, -9, -4}, {2, -9, -4}, {2, 9, -4}, {-2, 9, -4}, "glow",
+                                 two_matrices({-1, 0, 0}, {3, 0, 0}));
+    for (const auto& [time, left] : {std::pair{"0", 10}, {"0.5", 14}, {"1", 18}}) {
+        SCOPED_TRACE(time);
+        std::string text = parallel() + bar;
+        text.insert(text.find("options") + 9,
+                    std::string(" ignore_motion_blur on\n reference_time ") + time + "\n");
+        const Picture picture = seen(text);
+        for (int x = 0; x < kSize; ++x)
+            EXPECT_EQ(picture.color("A", static_cast<std::size_t>(x)).r,
+                      x >= left && x < left + 8 ? 1 : 0)
+                << "column " << x;
+        expect_motion(picture, {8, 0});
+        EXPECT_TRUE(check_identical(render(text), "RGBA", picture, "RGBA"));
+    }
+}
+
 TEST(MotionVector, ChangesNoBitOfTheBeauty) {
     const std::string text = parallel() + wall(-5, two_matrices({-1, 0, 0}, {2, 0.5F, 0}));
     EXPECT_TRUE(check_identical(render(text), "RGBA", seen(text), "RGBA"));
@@ -126,6 +145,10 @@ TEST(MotionVector, SaysWhenTheShutterIsTooShortForAny) {
                           {"the shutter opens for no time"});
     ASSERT_EQ(still.diagnostics().n_warnings(), 1U);
     EXPECT_EQ(still.diagnostics().items()[0].code, Code::OutputStill);
+    std::string outside = parallel() + wall(-5);
+    outside.insert(outside.find("options") + 9, " ignore_motion_blur on\n reference_time 2\n");
+    const TestScene closed(outside, in_memory({"motionvector RGB"}), {"opens for no time"});
+    EXPECT_NE(closed.diagnostics().items()[0].hint.find("reference_time"), std::string::npos);
 }
 
 TEST(FilmOf, UndoesTheRaysOfEveryCamera) {

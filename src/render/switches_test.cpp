@@ -126,6 +126,12 @@ TEST(Switches, Motion) {
     EXPECT_EQ(first.r, 1);
     EXPECT_EQ(both("ignore_motion_blur on", text, open).second.r, 1) << "at time 0";
     EXPECT_EQ(both("ignore_motion_blur on\n reference_time 1", text, open).second.r, 0);
+    // A third of the way to the last key it has left the picture; a shutter that is closed at that time does not matter.
+    EXPECT_EQ(both("ignore_motion_blur on\n reference_time 0.67", text, open).second.r, 0);
+    EXPECT_EQ(both("ignore_motion_blur on\n reference_time 0.4", text,
+                   " shutter_start 0.6\n shutter_end 1\n")
+                  .second.r,
+              1);
 }
 
 TEST(Switches, ListOfTypes) {

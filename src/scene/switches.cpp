@@ -49,12 +49,7 @@ class SwitchBoard {
                        link.param->name.view().ends_with("normal");
             });
         if (on("ignore_motion")) each([](NodeInstance& node) { keep_first_keys(node); });
-        if (on("ignore_motion_blur")) {
-            const auto* time = graph_.options()->find<float>("reference_time");
-            const std::string at = std::to_string(time == nullptr ? 0.0F : *time);
-            reset("shutter_start", at);
-            reset("shutter_end", at);
-        }
+        if (on("ignore_motion_blur")) close_shutters();
     }
 
   private:
@@ -100,6 +95,23 @@ class SwitchBoard {
             for (const auto& node : scope->nodes)
                 if (node->type().find(param) != nullptr) editor.set(*node, param.view(), value);
         }
+    }
+
+    /// A shutter that is open at reference_time stays so: all samples are taken at that time, and motion vectors know what
+    /// moves while it is open. The others close, and all do where cameras differ in that.
+    void close_shutters() {
+        const auto* reference = graph_.options()->find<float>("reference_time");
+        const float time = reference == nullptr ? 0 : *reference;
+        bool open = true;
+        each([&](const NodeInstance& node) {
+            const auto* start = node.find<float>("shutter_start");
+            const auto* end = node.find<float>("shutter_end");
+            if (start != nullptr && end != nullptr) open &= *start <= time && time <= *end;
+        });
+        if (open) return;
+        const std::string at = std::to_string(time);
+        reset("shutter_start", at);
+        reset("shutter_end", at);
     }
 
     template <class Which>

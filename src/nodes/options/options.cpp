@@ -277,7 +277,8 @@ void describe_switches(Describe<Options>& d) {
     d.param("ignore_motion", &Options::ignore_motion,
             "Renders as if nothing had motion keys but the first.");
     d.param("ignore_motion_blur", &Options::ignore_motion_blur,
-            "Renders with an instantaneous shutter at reference_time.");
+            "Renders with an instantaneous shutter at reference_time; the AOV motionvector still "
+            "shows what moves while the camera's shutter is open.");
     d.param("ignore_dof", &Options::ignore_dof, "Renders without depth of field.");
     d.param("ignore_sss", &Options::ignore_sss, "Renders without subsurface scattering.");
     d.param("ignore_smoothing", &Options::ignore_smoothing, "Renders meshes with face normals.");
