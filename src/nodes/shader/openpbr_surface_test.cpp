@@ -196,7 +196,8 @@ TEST(OpenPbr, FilmCoversAPart) {
     node.set("transmission_weight", 1.0F).set("base_metalness", 0.0F);
     for (const bool inside : {true, false}) {
         node.set("geometry_thin_walled", !inside);
-        for (const Closure& c : Shaded(node, 0.8F, !inside).set.closures())
+        const Shaded shaded(node, 0.8F, !inside);
+        for (const Closure& c : shaded.set.closures())
             EXPECT_FALSE(std::holds_alternative<FilmReflect>(c.model));
     }
 }
