@@ -380,6 +380,8 @@ class Integrator {
     std::array<Color, kMaxChannels> carries_;  ///< what each of several scatterers may carry on
     std::array<Color, kMaxChannels> reach_;    ///< throughput that may use each channel
     std::array<Color, kMaxChannels> values_;   ///< see cleared_values
+    /// What light brings through each channel to each group, group after group: see deposit_scattered.
+    std::array<Color, PathGroups::kMaxGroups * kMaxChannels> shares_;
     /// By scatterer: the closures of the set, then its subsurface closures.
     std::array<std::uint8_t, kMaxChannels> channel_of_;
     /// How many rays each scatterer sends on, on average: where there is one ray, the probability of drawing it.

@@ -22,19 +22,22 @@ void Integrator<Tracker>::deposit(Terminal terminal, const Value& value) {
 template <class Tracker>
 template <class Value>
 void Integrator<Tracker>::deposit_scattered(Terminal terminal, const Value& value) {
+    // Worked out once: the beauty adds all of them up, and each term of the AOVs takes one.
     Color total;
     const std::span<const PathGroup> groups = path_.groups.all();
-    const auto scaled = [&](std::size_t g, std::size_t c) {
-        return value(g, c) * path_.groups.indirect(g);
+    const auto share = [&](std::size_t g, std::size_t c) -> Color& {
+        return shares_[g * n_channels_ + c];
     };
     for (std::size_t g = 0; g < groups.size(); ++g)
-        for (std::size_t c = 0; c < n_channels_; ++c)
-            total += groups[g].throughput * scaled(g, c);
+        for (std::size_t c = 0; c < n_channels_; ++c) {
+            share(g, c) = value(g, c) * path_.groups.indirect(g);
+            total += groups[g].throughput * share(g, c);
+        }
     if (is_black(total)) return;
     if (!is_finite(total)) return drop(terminal.event);
     const float scale = clamp_factor(total, path_.n_scatter + 1);
     out_->add_light(total * scale, total);
-    tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, scaled, scale);
+    tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, share, scale);
 }
 
 template <class Tracker>
