@@ -3,7 +3,7 @@
 
     python bench/denoise_bench.py [--quick] [--json] [--seeds N] [--threads N]
 
-Renders the showcase and the Cornell box small and noisy, with several seeds, and twice with many samples. Prints for each
+Renders the showcase, the Cornell box and the hall of panels small and noisy, with several seeds, and twice with many samples. Prints for each
 layer of light the mean squared error of the noisy picture, of each layer denoised alone, and of what `lightsieve.denoise`
 makes of it, and the ratio of the last two. Errors are products of the differences to the two references, whose own noise
 is independent and so averages out: nothing has to be converged altogether.
@@ -27,7 +27,7 @@ sys.path.insert(0, str(HERE))
 
 import lightsieve  # noqa: E402
 from lightsieve.denoise_oidn import Denoiser  # noqa: E402
-from scenes import as_ass, cornell_box  # noqa: E402
+from scenes import as_ass, ceiling_panels, cornell_box  # noqa: E402
 
 Picture = npt.NDArray[np.float64]
 
@@ -92,7 +92,8 @@ class Errors:
 
 def cases(folder: Path, quick: bool) -> list[Case]:
     as_ass.write(folder / "cornell.ass", cornell_box.scene(n_groups=3), resolution=512)
-    cornell = folder / "cornell.ass"
+    as_ass.write(folder / "panels.ass", ceiling_panels.scene(), resolution=512)
+    cornell, panels = folder / "cornell.ass", folder / "panels.ass"
     aovs = (*CORNELL_AOVS, "N VECTOR")
     if quick:
         return [Case("Cornell box", cornell, aovs, (32, 32), 2, 8)]
@@ -101,6 +102,8 @@ def cases(folder: Path, quick: bool) -> list[Case]:
         Case("showcase, more samples", SHOWCASE, ("N VECTOR",), (192, 108), 8, 48),
         Case("Cornell box", cornell, aovs, (128, 128), 4, 128),
         Case("Cornell box, more samples", cornell, aovs, (128, 128), 32, 128),
+        Case("64 panels", panels, aovs, (128, 128), 4, 96),
+        Case("64 panels, more samples", panels, aovs, (128, 128), 16, 96),
     ]
 
 

@@ -97,8 +97,8 @@ class SwitchBoard {
         }
     }
 
-    /// A shutter that is open at reference_time stays so: all samples are taken at that time, and motion vectors know what
-    /// moves while it is open. The others close, and all do where cameras differ in that.
+    /// Shutters stay as they are if all of them are open at reference_time: samples are taken at that time alone, and motion
+    /// vectors know what moves meanwhile. Else all of them close.
     void close_shutters() {
         const auto* reference = graph_.options()->find<float>("reference_time");
         const float time = reference == nullptr ? 0 : *reference;
