@@ -84,7 +84,14 @@ def cpu_seconds() -> float:
 
 
 def compile_scene(
-    scene: str, aovs: list[str], *, threads: int, spp: int, roulette: int, seed: int | None = None
+    scene: str,
+    aovs: list[str],
+    *,
+    threads: int,
+    spp: int,
+    roulette: int,
+    seed: int | None = None,
+    guiding: bool = False,
 ) -> object:
     """Reads and compiles a scene.
 
@@ -101,6 +108,7 @@ def compile_scene(
     options.spp = spp
     options.roulette_depth = roulette
     options.seed = seed
+    options.guiding = guiding
     options.capture = True
     options.write_files = False
     compiled = _core.CompiledScene(scene, options)

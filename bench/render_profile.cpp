@@ -1,9 +1,10 @@
 // Renders a scene in memory and prints the figures: the program to give to perf, callgrind and the like.
 //
-//     render_profile SCENE.ass [SAMPLES_PER_PIXEL [THREADS [builtins|noise]]]
+//     render_profile SCENE.ass [SAMPLES_PER_PIXEL [THREADS [builtins] [noise] [guiding]]]
 //
 // "builtins" asks for every built-in AOV, and for it in every light group, beside the beauty. "noise" renders once more with
-// another seed and prints the variance of a pixel's channel, and 1 / (variance * processor time). No Russian roulette, no files.
+// another seed and prints the variance of a pixel's channel, and 1 / (variance * processor time); training of "guiding" is in
+// that time. No Russian roulette, no files.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -63,7 +64,11 @@ int profile(int argc, char** argv) {
     options.threads = argc > 3 ? std::atoi(argv[3]) : 1;
     options.roulette_depth = -1;
     options.write_files = false;
-    if (argc > 4 && std::string_view(argv[4]) == "builtins")
+    const auto said = [&](std::string_view word) {
+        return std::find(argv + std::min(argc, 4), argv + argc, word) != argv + argc;
+    };
+    options.guiding = said("guiding");
+    if (said("builtins"))
         for (const lpe::Builtin& row : lpe::builtins()) {
             const std::string name(row.name);
             if (name != "RGBA") options.aovs.push_back(name + " RGB");
@@ -76,7 +81,7 @@ int profile(int argc, char** argv) {
     add_all_nodes(registry);
     const Document document = read_ass_file(options.scene_path, diagnostics);
     SceneGraph graph = build_graph(document, registry, {}, diagnostics);
-    const bool noise = argc > 4 && std::string_view(argv[4]) == "noise";
+    const bool noise = said("noise");
     options.capture = noise;
     const Profile first = render_once(graph, options, diagnostics);
     const RenderResult& result = first.result;
@@ -100,7 +105,8 @@ int profile(int argc, char** argv) {
 int main(int argc, char** argv) {
     if (argc < 2) {
         std::fputs(
-            "usage: render_profile SCENE.ass [SAMPLES_PER_PIXEL [THREADS [builtins|noise]]]\n",
+            "usage: render_profile SCENE.ass [SAMPLES_PER_PIXEL [THREADS [builtins] [noise] "
+            "[guiding]]]\n",
             stderr);
         return 2;
     }

@@ -113,7 +113,7 @@ def main() -> None:
     for scene in args.only:
         rows = []
         for name in args.renderers:
-            python = sys.executable if name == "lightsieve" else args.peers_python
+            python = sys.executable if name.startswith("lightsieve") else args.peers_python
             found = row(replace(base, renderer=name, scene=scene), python, args.llvm)
             if found is not None:
                 rows.append(found)

@@ -16,6 +16,8 @@ from scenes import as_ass
 class Lightsieve:
     """With layers: all built-in AOVs, and each of them in every light group."""
 
+    guiding = False
+
     def __init__(self, scene: Scene, setting: Setting) -> None:
         from lightsieve import lpe
 
@@ -38,6 +40,13 @@ class Lightsieve:
             spp=spp,
             roulette=-1,
             seed=seed,
+            guiding=self.guiding,
         )
         outcome = compiled.render()  # type: ignore[attr-defined]
         return Rendered(np.array(measure.beauty(outcome)), outcome.seconds, spp)
+
+
+class GuidedLightsieve(Lightsieve):
+    """The same with --guiding; its training is part of the time."""
+
+    guiding = True

@@ -26,6 +26,7 @@ from scenes import ceiling_panels, cornell_box, terrain
 
 RENDERERS = {
     "lightsieve": ("with_lightsieve", "Lightsieve", ""),
+    "lightsieve guided": ("with_lightsieve", "GuidedLightsieve", ""),
     "mitsuba scalar_rgb": ("with_mitsuba", "Mitsuba", "scalar_rgb"),
     "mitsuba llvm_ad_rgb": ("with_mitsuba", "Mitsuba", "llvm_ad_rgb"),
     "cycles": ("with_cycles", "Cycles", ""),

@@ -373,6 +373,13 @@ class RenderOptions:
     def resume(self, arg: bool, /) -> None: ...
 
     @property
+    def guiding(self) -> bool:
+        """Learn where light comes from, before the first sample."""
+
+    @guiding.setter
+    def guiding(self, arg: bool, /) -> None: ...
+
+    @property
     def keep_checkpoint(self) -> bool:
         """Keep it also when the render is done."""
 
@@ -613,6 +620,10 @@ class Outcome:
     @property
     def samples(self) -> int:
         """Camera samples taken."""
+
+    @property
+    def training_samples(self) -> int:
+        """Camera samples that guiding learned from, not in `samples`."""
 
     @property
     def resumed_samples(self) -> int:

@@ -48,6 +48,9 @@ class Settings(TypedDict, total=False):
     """`reference` or `arnold7`: which reading of the built-in AOVs."""
     rendering_space: str
     """Colour space that light is computed in, by name; empty: as the scene says, or ACEScg."""
+    guiding: bool
+    """Learn where light comes from, from an eighth more samples, and send part of the rays of broad
+    lobes there: less noise in caustics and indirect light."""
     checkpoint: float | None
     """Minutes between two writes of what is done to FILE.checkpoint beside the first file; 0: only
     when the render ends before time; None: never, unless `resume` or `keep_checkpoint` ask for
@@ -126,6 +129,7 @@ def compile_scene(
     options.lpe_table = settings.get("lpe_table", "")
     options.rendering_space = settings.get("rendering_space", "")
     options.isa = settings.get("isa", "")
+    options.guiding = settings.get("guiding", False)
     minutes = settings.get("checkpoint")
     options.resume = settings.get("resume", False)
     options.keep_checkpoint = settings.get("keep_checkpoint", False)

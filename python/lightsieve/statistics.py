@@ -19,10 +19,11 @@ KEYS = {
     "width": "of the rendered region [pixels]",
     "height": "of the rendered region [pixels]",
     "samples": "camera samples taken",
+    "training_samples": "camera samples that --guiding learned from, not in `samples`",
     "resumed_samples": "camera samples that a checkpoint had, not in `samples`",
     "checkpoint": "file from which --resume can go on, or null",
     "dropped_samples": "contributions that were not finite",
-    "rays": "closest-hit and shadow rays",
+    "rays": "closest-hit and shadow rays, those of training too",
     "rays_by_kind": "the same by what they were traced for: `camera`, `shadow`, `diffuse`, "
     "`specular`, `transmission`, `volume`, `subsurface`",
     "seconds": "sampling, without reading the scene and writing files",
@@ -31,7 +32,7 @@ KEYS = {
     "times": "seconds by stage: `read`, `compile`, `textures` (opened), `volumes` (read), `accel` "
     "(structures for rays), `render`, `write`",
     "memory": "bytes at the end by what they hold: `geometry`, `accel`, `volumes`, `textures`, "
-    "`automata`, `film`, `layers` (kept for Python), `output`, `checkpoint`, `other` (the rest of "
+    "`automata`, `guide`, `film`, `layers` (kept for Python), `output`, `checkpoint`, `other` (the rest of "
     "the peak: the program, the scene as it was read)",
     "peak_memory": "the most bytes that the process ever held",
     "forecast": "before the first ray: `memory` (at most, by the same names), `total`, "
@@ -94,6 +95,7 @@ def of_render(scene: CompiledScene, outcome: Outcome) -> dict[str, Any]:
         "width": outcome.width,
         "height": outcome.height,
         "samples": outcome.samples,
+        "training_samples": outcome.training_samples,
         "resumed_samples": outcome.resumed_samples,
         "checkpoint": outcome.checkpoint or None,
         "dropped_samples": outcome.dropped_samples,

@@ -33,6 +33,18 @@ using LobeModel =
     return std::holds_alternative<HairLobe>(model) || std::holds_alternative<PhaseLobe>(model);
 }
 
+/// Broad lobes take light from most of a hemisphere: where it comes from matters more than what the lobe says.
+[[nodiscard]] inline bool is_broad(const LobeModel& model) noexcept {
+    return std::visit(
+        []<class Model>(const Model&) {
+            return std::is_same_v<Model, DiffuseReflect> ||
+                   std::is_same_v<Model, DiffuseTransmit> ||
+                   std::is_same_v<Model, BurleyReflect> ||
+                   std::is_same_v<Model, OrenNayarReflect> || std::is_same_v<Model, SheenReflect>;
+        },
+        model);
+}
+
 /// Diffuse reflection by Arnold's diffuse_roughness.
 [[nodiscard]] inline LobeModel rough_diffuse(Color color, float roughness) noexcept {
     if (roughness > 0) return OrenNayarReflect(color, roughness);

@@ -230,6 +230,8 @@ void add_options(nb::module_& module) {
         .def_rw("checkpoint_minutes", &RenderOptions::checkpoint_minutes,
                 "Between two writes of what is done; 0: only when the render ends before time.")
         .def_rw("resume", &RenderOptions::resume, "Go on from there.")
+        .def_rw("guiding", &RenderOptions::guiding,
+                "Learn where light comes from, before the first sample.")
         .def_rw("keep_checkpoint", &RenderOptions::keep_checkpoint,
                 "Keep it also when the render is done.")
         .def_rw("max_memory", &RenderOptions::max_memory,
@@ -327,6 +329,9 @@ void add_results(nb::module_& module) {
             "Spent in drivers.")
         .def_prop_ro(
             "samples", [](const Outcome& o) { return o.result.samples; }, "Camera samples taken.")
+        .def_prop_ro(
+            "training_samples", [](const Outcome& o) { return o.result.training_samples; },
+            "Camera samples that guiding learned from, not in `samples`.")
         .def_prop_ro(
             "resumed_samples", [](const Outcome& o) { return o.result.resumed_samples; },
             "Camera samples that a checkpoint had, not in `samples`.")

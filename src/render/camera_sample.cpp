@@ -7,9 +7,8 @@ enum CameraPair : std::uint32_t { kFilterPair = 0, kLensPair = 1, kTimePair = 2 
 }  // namespace
 
 CameraSample CameraSampler::sample(int x, int y, std::uint32_t index) const {
-    CameraSample out{.sampler =
-                         Sampler(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                                 index, scene_.settings.seed)};
+    CameraSample out{.sampler = Sampler(static_cast<std::uint32_t>(x),
+                                        static_cast<std::uint32_t>(y), index, seed_)};
     const PixelFilter& filter = *scene_.plan.views[pass_.sampling_view].filter;
     const std::array<Vec2f, 4> points = out.sampler.at2x4(0);
     out.offset = filter.sample(points[kFilterPair]).offset;

@@ -28,7 +28,11 @@ struct CameraSample {
 /// the other filters weigh them by their value over the density.
 class CameraSampler {
   public:
-    CameraSampler(const Scene& scene, const Pass& pass) : scene_(scene), pass_(pass) {}
+    CameraSampler(const Scene& scene, const Pass& pass)
+        : CameraSampler(scene, pass, scene.settings.seed) {}
+    /// The same with another seed than the scene's.
+    CameraSampler(const Scene& scene, const Pass& pass, std::uint32_t seed)
+        : scene_(scene), pass_(pass), seed_(seed) {}
 
     [[nodiscard]] CameraSample sample(int x, int y, std::uint32_t index) const;
     /// One weight for each of the pass's views.
@@ -39,6 +43,7 @@ class CameraSampler {
   private:
     const Scene& scene_;
     const Pass& pass_;
+    std::uint32_t seed_;
 };
 
 /// Takes the camera's exposure out of a sample's albedos: it brightens light, and they are a property of surfaces.

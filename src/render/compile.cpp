@@ -242,6 +242,7 @@ void Compiler::read_settings() {
     s.indirect_clamp = option("indirect_sample_clamp", 10.0F);
     s.low_light_threshold = option("low_light_threshold", 0.001F);
     s.roulette_depth = options_.roulette_depth;
+    s.guiding = options_.guiding;
     s.dielectric_priorities = option("dielectric_priorities", true);
     constexpr std::array<std::string_view, 4> kInstructionSets{"", "sse2", "avx2", "avx512"};
     if (std::find(kInstructionSets.begin(), kInstructionSets.end(), options_.isa) ==

@@ -8,6 +8,7 @@
 #include "core/fingerprint.h"
 #include "core/version.h"
 #include "render/compiler.h"
+#include "render/guide_training.h"
 
 namespace lightsieve {
 namespace {
@@ -83,6 +84,8 @@ void Compiler::identify() {
         {"adaptive sampling", adaptive.str()},
         {"camera", options_.camera},
         {"Russian roulette", number(s.roulette_depth)},
+        // A guide is learned anew, from as many samples as before.
+        {"guiding", s.guiding ? "from " + number(training_samples(*scene_)) + " samples" : "off"},
         {"rendering space", options_.rendering_space},
         {"instruction set", options_.isa},
     };

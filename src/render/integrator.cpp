@@ -86,6 +86,7 @@ void Integrator<Tracker>::trace_path(const CameraRay& camera_ray, float time,
     path_.n_scatter = path_.n_transparent = 0;
     path_.siblings = 1;
     path_.slot = 0;
+    path_.place = GuideRecorder::kNone;
     path_.monochromatic = path_.exit_pending = knows_first_ = false;
     path_.fans_out = true;
     path_.state = state;
@@ -156,6 +157,7 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
             path_.sampler.at2x4(kFirstPair + path_.segment * kPairsPerSegment);
         points_ = {points[0], points[1], points[2], points[3]};
         choose_probabilities();
+        if (guide_ != nullptr) find_guide(surface);
         if (path_.fans_out) {
             if (!fan_out(surface, ray)) return;
             continue;

@@ -10,11 +10,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "bsdf/dispersion.h"
 #include "core/sobol.h"
 #include "render/film.h"
 #include "render/gi_kind.h"
+#include "render/guide_training.h"
 #include "render/interiors.h"
 #include "render/media_path.h"
 #include "render/path_terms.h"
@@ -44,7 +46,20 @@ struct TraceCounts {
 template <class Tracker>
 class Integrator {
   public:
-    explicit Integrator(const Scene& scene) : scene_(scene), tracker_(scene) {}
+    explicit Integrator(const Scene& scene)
+        : scene_(scene), culling_(scene.culling), tracker_(scene) {}
+
+    /// Sends part of the rays of broad lobes where the guide says. It must outlive all paths; null: no rays.
+    void set_guide(const Guide* guide) { guide_ = guide; }
+    /// Paths are traced to learn from, with what `guide` knows so far: all light counts, whatever outputs want of it.
+    void train(const Guide& guide, GuideRecorder& recorder)
+        requires std::is_same_v<Tracker, AovTracker>
+    {
+        guide_ = &guide;
+        recorder_ = &recorder;
+        culling_ = Culling::None;
+        tracker_.follow_nothing();
+    }
 
     /// Traces one camera sample; everything that it brings is added to `out`.
     void trace(const CameraRay& camera_ray, float time, const Mat4f& camera_from_world,
@@ -243,6 +258,25 @@ class Integrator {
     [[nodiscard]] float share_of_collisions(const Ray& ray, const AlongRay& part, float t,
                                             std::uint32_t light, float asked) const;
 
+    // Guided rays (integrator_guide.cpp).
+    /// Finds out which closures are guided here, and what is known here.
+    void find_guide(const Surface& surface);
+    [[nodiscard]] bool is_guided(std::size_t closure) const {
+        return ((guided_ >> closure) & 1U) != 0;
+    }
+    /// Density of guided rays in a direction; 0 where no closure is guided.
+    [[nodiscard]] float guide_pdf(Vec3f wi) const {
+        return guided_share_ > 0 ? directions_->pdf(wi) : 0;
+    }
+    /// Density of a closure's rays, of which part may be guided.
+    [[nodiscard]] float blended_pdf(std::size_t closure, float pdf, float guide_pdf) const {
+        return is_guided(closure) ? lerp(pdf, guide_pdf, guided_share_) : pdf;
+    }
+    /// A direction for the closure, from the guide or from the closure itself. Nothing if there is none.
+    [[nodiscard]] std::optional<LobeSample> sample(std::size_t drawn) const;
+    /// Notes for training that the path goes on.
+    void record(std::size_t drawn, Vec3f wi, std::span<const Color> factors, float carried);
+
     // Parts of them.
     [[nodiscard]] std::size_t n_scatterers() const {
         return closures_.closures().size() + closures_.subsurfaces().size();
@@ -317,14 +351,14 @@ class Integrator {
     }
     /// Whether anybody still asks for light, or for what the camera ray meets.
     [[nodiscard]] bool wanted() const {
-        return scene_.culling == Culling::None || tracker_.live() ||
+        return culling_ == Culling::None || tracker_.live() ||
                (path_.n_scatter == 0 && (writes_aovs_ || !out_->first.hit));
     }
 
     /// Whether anybody asks for the light that the vertex gets from a light.
     [[nodiscard]] bool wanted_from(const SceneLight& light) const {
         const std::span<const Channel> channels(channels_.data(), n_channels_);
-        return scene_.culling == Culling::None || tracker_.takes(channels, light.as_light) ||
+        return culling_ == Culling::None || tracker_.takes(channels, light.as_light) ||
                (light.is_skydome && tracker_.takes(channels, light.as_background));
     }
     /// What a path carries from one vertex to the next: all that is put aside where it splits.
@@ -340,9 +374,10 @@ class Integrator {
             start;  ///< throughput at the camera, which roulette compares with; the path's part of it where it split
         RayState state;  ///< what shaders see of it
         std::uint32_t segment = 0;
-        std::uint32_t slot = 0;      ///< of the sample: where the path left what the camera sees
-        int n_scatter = 0;           ///< scattering events so far
-        int n_transparent = 0;       ///< transparent surfaces passed
+        std::uint32_t slot = 0;  ///< of the sample: where the path left what the camera sees
+        std::uint32_t place = GuideRecorder::kNone;  ///< the last that training noted
+        int n_scatter = 0;                           ///< scattering events so far
+        int n_transparent = 0;                       ///< transparent surfaces passed
         float siblings = 1;          ///< paths that share what this one stands for, at least 1
         bool monochromatic = false;  ///< it has taken its wavelength
         bool exit_pending =
@@ -358,7 +393,10 @@ class Integrator {
     };
 
     const Scene& scene_;
+    Culling culling_;
     Tracker tracker_;
+    const Guide* guide_ = nullptr;
+    GuideRecorder* recorder_ = nullptr;  ///< null: no training
     Path path_;
     std::vector<Fork> forks_;  ///< the first n_forks_ wait; the others keep their memory for later
     std::size_t n_forks_ = 0;
@@ -388,10 +426,14 @@ class Integrator {
     std::array<float, kMaxChannels> probability_;
     std::array<GiKind, kMaxChannels> kind_of_;  ///< each scatterer's, where the path splits
     std::array<std::uint8_t, kMaxChannels>
-        mixture_;            ///< that the scatterers of each channel share
-    Wavelength wavelength_;  ///< that the path takes when it must
-    MediaPath media_;        ///< along the current ray
-    float media_t_ = 0;      ///< how far the ray has come through them
+        mixture_;                                ///< that the scatterers of each channel share
+    std::uint32_t guided_ = 0;                   ///< closures, as bits
+    std::uint32_t cell_ = 0;                     ///< of the guide, where any is guided
+    const DirectionTree* directions_ = nullptr;  ///< null: nothing is known here
+    float guided_share_ = 0;                     ///< of their rays
+    Wavelength wavelength_;                      ///< that the path takes when it must
+    MediaPath media_;                            ///< along the current ray
+    float media_t_ = 0;                          ///< how far the ray has come through them
     /// Of the segment: 0 the first collision; 1 point along the ray and choice of light; 2 point on that light.
     std::array<Vec2f, 4> media_points_;
     /// The atmosphere along the current ray.

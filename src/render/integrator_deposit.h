@@ -16,6 +16,7 @@ void Integrator<Tracker>::deposit(Terminal terminal, const Value& value) {
     if (!is_finite(total)) return drop(terminal.event);
     const float scale = clamp_factor(total, path_.n_scatter);
     out_->add_light(total * scale, total);
+    if (recorder_ != nullptr) recorder_->bring(path_.place, luminance(total) * scale);
     tracker_.add(terminal, value, scale);
 }
 
@@ -37,6 +38,7 @@ void Integrator<Tracker>::deposit_scattered(Terminal terminal, const Value& valu
     if (!is_finite(total)) return drop(terminal.event);
     const float scale = clamp_factor(total, path_.n_scatter + 1);
     out_->add_light(total * scale, total);
+    if (recorder_ != nullptr) recorder_->bring(path_.place, luminance(total) * scale);
     tracker_.add_scattered(std::span(channels_.data(), n_channels_), terminal, share, scale);
 }
 

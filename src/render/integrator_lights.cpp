@@ -26,9 +26,10 @@ auto Integrator<Tracker>::evaluate(const Surface& surface, Vec3f wi,
     const bool agree = sides_agree(surface, wi);
     const std::span<const Closure> closures = closures_.closures();
     Densities pdf{};
+    const float guided = guide_pdf(wi);
     for (std::size_t i = 0; i < closures.size(); ++i) {
         const LobeEval eval = closures_.eval(i, wi);
-        pdf[mixture_[channel_of_[i]]] += probability_[i] * eval.pdf;
+        pdf[mixture_[channel_of_[i]]] += probability_[i] * blended_pdf(i, eval.pdf, guided);
         if (agree || has_no_sides(closures[i].model)) by_channel[channel_of_[i]] += eval.f;
     }
     return pdf;
@@ -41,12 +42,13 @@ float Integrator<Tracker>::evaluate(const Surface& surface, std::size_t drawn,
     const std::span<const Closure> closures = closures_.closures();
     const std::uint8_t mixture = mixture_[channel_of_[drawn]];
     float pdf = 0;
+    const float guided = guide_pdf(sample.wi);
     for (std::size_t i = 0; i < closures.size(); ++i) {
         if (mixture_[channel_of_[i]] != mixture) continue;
         // The sample has brought what its own lobe says.
         const LobeEval eval =
             i == drawn ? LobeEval{sample.f, sample.pdf} : closures_.eval(i, sample.wi);
-        pdf += probability_[i] * eval.pdf;
+        pdf += probability_[i] * blended_pdf(i, eval.pdf, guided);
         if (agree || has_no_sides(closures[i].model)) by_channel[channel_of_[i]] += eval.f;
     }
     return pdf;
@@ -215,7 +217,7 @@ void Integrator<Tracker>::add_light_at_exit(const WalkExit& exit) {
     const LightPick pick = lights->pick(surface.at.position, exit.outside, points_.choice.y);
     if (!(pick.probability > 0)) return;
     const SceneLight& light = scene_.lights[pick.light];
-    if (scene_.culling != Culling::None && !tracker_.takes(light.as_light) &&
+    if (culling_ != Culling::None && !tracker_.takes(light.as_light) &&
         !(light.is_skydome && tracker_.takes(light.as_background)))
         return;
     const bool samples_only = light.samples_only || surface.object->tampers_with_shadows();

@@ -40,7 +40,7 @@ void Integrator<Tracker>::choose_probabilities() {
     std::ranges::fill(reach, kBlack);
     for (std::size_t c = 0; c < n_channels_; ++c) {
         mixture_[c] = is_enabled(channels_[c]) ? 0 : kNoRays;
-        if (scene_.culling == Culling::Lobes && !tracker_.goes_on(channels_[c])) continue;
+        if (culling_ == Culling::Lobes && !tracker_.goes_on(channels_[c])) continue;
         for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
             if (!path_.groups[g].key.lights_only() &&
                 channel_allowed(path_.groups[g].key, channels_[c]))
@@ -93,9 +93,9 @@ void Integrator<Tracker>::pass_straight(const Surface& surface, Ray& ray, float 
 template <class Tracker>
 bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray& ray) {
     if (drawn >= closures_.closures().size()) return scatter_below(surface, drawn, ray);
-    const float u_choice = points_.roulette.y;
-    const LobeSample sample = closures_.sample(drawn, points_.direction, u_choice);
-    if (!(sample.pdf > 0)) return false;
+    const std::optional<LobeSample> chosen = this->sample(drawn);
+    if (!chosen) return false;
+    const LobeSample& sample = *chosen;
 
     // What each channel of the mixture carries into that direction, over its density.
     const std::span<Color> factors = cleared_values();
@@ -127,7 +127,9 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
     for (Color& factor : factors)
         factor *= wavelength;
     const LightPlan plan = light_plan(*surface.object->lights, surface.in_medium);
+    const float carried = recorder_ != nullptr ? luminance(path_.groups.total()) : 0;
     if (!advance(factors, drawn) || !is_worth_a_ray()) return false;
+    if (recorder_ != nullptr && !delta) record(drawn, sample.wi, factors, carried);
     if (dot(sample.wi, surface.outward) < 0 && !surface.in_medium) {
         path_.monochromatic |= closures_.disperses();
         // Curves have no inside: rays to their far side are past them.

@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "render/adaptive.h"
 #include "render/film.h"
+#include "render/guide_training.h"
 #include "render/scene.h"
 
 namespace lightsieve {
@@ -85,12 +86,13 @@ BucketMemory bucket_memory(const Scene& scene) {
 
 /// What helps against too much of a kind.
 std::string_view help_against(std::string_view kind) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kHelp{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kHelp{
         {{"geometry", "instances (ginstance) of shapes that are alike share their geometry"},
          {"accel", "instances (ginstance) of shapes that are alike share their structure"},
          {"volumes", "load fewer grids (volume.grids), or coarser ones"},
          {"textures", "a smaller options.texture_max_memory_MB is slower, but takes less"},
          {"automata", "ask for fewer expressions"},
+         {"guide", "render without guiding, or fewer samples"},
          {"film", "use fewer --threads or a smaller options.bucket_size, or ask for fewer layers"},
          {"layers", "write files instead of keeping layers, or render a region"},
          {"output", "a driver_exr with tiles and without autocrop writes as it goes"},
@@ -144,6 +146,7 @@ MemoryForecast forecast_memory(const Scene& scene) {
         n_buckets, static_cast<std::size_t>(s.threads > 0 ? s.threads : hardware_threads()));
     const BucketMemory bucket = bucket_memory(scene);
     // Three sums and a count tell the noise of a layer in a bucket.
+    use.guide = training_memory(scene);
     use.film = n_threads * (bucket.film + bucket.layers) +
                n_buckets * scene.plan.layers.size() * 4 * sizeof(double);
     if (scene.capture)

@@ -33,6 +33,8 @@ std::vector<LoggedPath> log_paths(const Scene& scene) {
     const Pass& pass = scene.plan.passes.at(0);
     const CameraSampler camera(scene, pass);
     Integrator<LogTracker> integrator(scene);
+    const GuideTraining training = train_guide(scene, [](std::uint64_t) {}, nullptr);
+    integrator.set_guide(training.guide.get());
     LogTracker& log = integrator.tracker();
     SampleBuffer buffer;
     const Region& region = scene.settings.region;

@@ -15,6 +15,7 @@
 #include "lpe/path.h"
 #include "render/adaptive.h"
 #include "render/camera_sample.h"
+#include "render/guide_training.h"
 #include "render/integrator.h"
 #include "render/live_view.h"
 #include "render/mattes.h"
@@ -102,6 +103,7 @@ class Renderer {
     void open_viewer();
     void restore_folders();
     void make_room();
+    void learn_guide();
     void render_bucket(Worker& worker, std::size_t index, const BucketRect& rect);
     void render_pass(Worker& worker, std::size_t bucket, std::size_t pass, const BucketRect& rect);
     [[nodiscard]] int most_samples(const Pass& pass) const;
@@ -115,6 +117,7 @@ class Renderer {
     void measure_noise(Worker& worker, std::size_t bucket, std::size_t layer);
     void report_noise();
     void report_progress(Worker& worker);
+    void tell_progress();
     [[nodiscard]] bool has_noise(const PlannedLayer& layer) const;
     [[nodiscard]] double noise_so_far();
     void find_watched_layer();
@@ -141,6 +144,8 @@ class Renderer {
     Checkpoint checkpoint_;
     std::vector<FileClaim> claims_;  ///< on the files of all drivers
     std::optional<LiveView> viewer_;
+    std::unique_ptr<const Guide> guide_;                        ///< null: none
+    std::uint64_t samples_learned_ = 0, samples_to_learn_ = 0;  ///< of the guide's training
     std::mutex output_mutex_, progress_mutex_, workers_mutex_;
     std::atomic<std::uint64_t> samples_resumed_ = 0;
     std::atomic<std::uint64_t> samples_done_ = 0;
@@ -243,7 +248,10 @@ void Renderer::restore_folders() {
 
 Worker& Renderer::worker() {
     const std::lock_guard lock(workers_mutex_);
-    if (idle_.empty()) idle_.push_back(std::make_unique<Worker>(scene_));
+    if (idle_.empty()) {
+        idle_.push_back(std::make_unique<Worker>(scene_));
+        idle_.back()->integrator.set_guide(guide_.get());
+    }
     workers_.push_back(std::move(idle_.back()));
     idle_.pop_back();
     return *workers_.back();
@@ -289,6 +297,7 @@ RenderResult Renderer::run() {
     noise_.assign(buckets.size(), std::vector<NoiseSum>(scene_.plan.layers.size()));
     find_watched_layer();
     start_ = Clock::now();
+    learn_guide();
     parallel_for(buckets.size(), s.threads, [&](std::size_t i) {
         if (stopped()) return;
         Worker& mine = worker();
@@ -308,6 +317,24 @@ RenderResult Renderer::run() {
     if (viewer_) viewer_->finish();
     report();
     return std::move(result_);
+}
+
+/// Samples of the training count as progress.
+void Renderer::learn_guide() {
+    samples_to_learn_ = training_samples(scene_);
+    GuideTraining training = train_guide(
+        scene_,
+        [this](std::uint64_t n) {
+            samples_learned_ += n;
+            samples_to_learn_ = std::max(samples_to_learn_, samples_learned_);
+            tell_progress();
+        },
+        control_.stop);
+    samples_to_learn_ = samples_learned_;
+    guide_ = std::move(training.guide);
+    result_.training_samples = training.n_samples;
+    for (std::size_t i = 0; i < training.rays.size(); ++i)
+        result_.rays_by_kind[i] += training.rays[i];
 }
 
 /// Renders a bucket, or what there is time for: pixels are divided by the filter weight that they got, so a bucket that was
@@ -437,9 +464,14 @@ bool Renderer::take_samples(Worker& worker, const CameraSampler& camera, const B
 
 void Renderer::report_progress(Worker& worker) {
     samples_done_ += std::exchange(worker.n_unreported, 0);
+    tell_progress();
+}
+
+void Renderer::tell_progress() {
     if (!control_.progress) return;
     const std::lock_guard lock(progress_mutex_);
-    control_.progress({samples_done_, samples_total_, seconds_since(start_), noise_so_far()});
+    control_.progress({samples_done_ + samples_learned_, samples_total_ + samples_to_learn_,
+                       seconds_since(start_), noise_so_far()});
 }
 
 /// Halves of the samples tell the noise of means of light.
@@ -593,6 +625,7 @@ void Renderer::report_dropped() {
 
 void Renderer::report_memory() {
     MemoryUse& use = result_.memory = memory_of(scene_);
+    if (guide_) use.guide = guide_->memory();
     use.film = noise_.size() * scene_.plan.layers.size() * sizeof(NoiseSum);
     for (const auto& w : idle_)
         use.film += w->memory();

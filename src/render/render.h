@@ -50,7 +50,8 @@ struct RenderOptions {
     std::string isa;                ///< "", "sse2", "avx2", "avx512": pins the ray kernels
     int roulette_depth =
         4;  ///< scattering events before Russian roulette may end a path; negative: never
-    bool capture = false;     ///< keep the layers in memory (RenderResult::layers)
+    bool guiding = false;  ///< broad lobes learn where light comes from, before the first sample
+    bool capture = false;  ///< keep the layers in memory (RenderResult::layers)
     bool write_files = true;  ///< hand buckets to the drivers
     double checkpoint_minutes =
         0;  ///< between two writes of what is done; 0: none but at an end before time
@@ -95,8 +96,10 @@ using ScenePtr = std::unique_ptr<Scene, SceneDelete>;
 [[nodiscard]] SceneSummary summarize(const Scene& scene);
 
 struct RenderProgress {
-    std::uint64_t samples_done = 0, samples_total = 0;  ///< camera samples
-    double seconds = 0;                                 ///< since the first ray
+    std::uint64_t samples_done = 0,
+                  samples_total =
+                      0;  ///< camera samples, those that guiding learns from among them
+    double seconds = 0;   ///< since the first ray
     /// Of the buckets that are done: a pixel's standard error over how bright pixels are, both root mean square, of the layer that
     /// adaptive sampling goes by or the first one of light. Below 0: not known yet.
     double noise = -1;
@@ -127,13 +130,15 @@ struct LayerNoise {
 };
 
 struct RenderResult {
-    bool stopped = false;               ///< ended early: the files have the samples taken so far
-    double seconds = 0;                 ///< sampling time, without compile and file output
-    double output_seconds = 0;          ///< spent in drivers
-    std::uint64_t samples = 0;          ///< camera samples taken
+    bool stopped = false;       ///< ended early: the files have the samples taken so far
+    double seconds = 0;         ///< sampling time, without compile and file output
+    double output_seconds = 0;  ///< spent in drivers
+    std::uint64_t samples = 0;  ///< camera samples taken
+    std::uint64_t training_samples =
+        0;  ///< camera samples that guiding learned from, not in `samples`
     std::uint64_t resumed_samples = 0;  ///< that a checkpoint had, not in `samples`
     std::string checkpoint;             ///< file from which a later render can go on; empty: none
-    std::uint64_t rays = 0;             ///< closest-hit and shadow rays
+    std::uint64_t rays = 0;             ///< closest-hit and shadow rays, those of training too
     RaysByKind rays_by_kind{};          ///< the same
     MemoryUse memory;                   ///< at the end; `other` is the rest of `peak_memory`
     std::size_t peak_memory = 0;        ///< of the process [bytes]; 0: not known

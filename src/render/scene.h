@@ -83,6 +83,7 @@ struct RenderSettings {
     float indirect_clamp = 10;           ///< indirect_sample_clamp
     float low_light_threshold = 0.001F;  ///< light samples below it are traced only sometimes
     int roulette_depth = 4;
+    bool guiding = false;  ///< broad lobes learn where light comes from
     float shutter_start = 0, shutter_end = 0;
     /// ignore_motion_blur: all samples are taken at this time [0,1) within the shutter.
     std::optional<float> instant;

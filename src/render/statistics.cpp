@@ -3,9 +3,11 @@
 namespace lightsieve {
 
 std::vector<std::pair<std::string_view, std::size_t>> MemoryUse::by_name() const {
-    return {{"geometry", geometry}, {"accel", accel},       {"volumes", volumes},
-            {"textures", textures}, {"automata", automata}, {"film", film},
-            {"layers", layers},     {"output", output},     {"checkpoint", checkpoint},
+    return {{"geometry", geometry}, {"accel", accel},
+            {"volumes", volumes},   {"textures", textures},
+            {"automata", automata}, {"guide", guide},
+            {"film", film},         {"layers", layers},
+            {"output", output},     {"checkpoint", checkpoint},
             {"other", other}};
 }
 

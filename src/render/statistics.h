@@ -64,6 +64,7 @@ struct MemoryUse {
     std::size_t volumes = 0;     ///< grids and bounds on them
     std::size_t textures = 0;    ///< texels in the cache
     std::size_t automata = 0;    ///< tables of the expressions
+    std::size_t guide = 0;       ///< where light comes from, as paths have learned
     std::size_t film = 0;        ///< sums and layers of the buckets in work, and noise by bucket
     std::size_t layers = 0;      ///< kept for the caller
     std::size_t output = 0;      ///< pixels that wait until their file can be written

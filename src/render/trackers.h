@@ -42,6 +42,9 @@ class AovTracker {
             sets_.push_back({{&scene.plan.program->automaton(i)}, {}});
     }
 
+    /// No AOV gets anything any more.
+    void follow_nothing() { sets_.clear(); }
+
     /// The terms of one path, put aside.
     using Saved = std::vector<PathTerms<AutomatonMachine>>;
 

@@ -82,6 +82,21 @@ def test_goes_on_with_more_samples(run: Run, still: Path, tmp_path: Path) -> Non
     assert pixels(tmp_path, "still.exr") == pixels(tmp_path, "whole.exr")
 
 
+def test_a_guide_is_learned_anew_from_as_many_samples(
+    run: Run, still: Path, tmp_path: Path
+) -> None:
+    guided = ("render", still.name, *SIZE, "--guiding", "--json")
+    first = run(*guided, "--spp", FEW, "--keep-checkpoint").json
+    assert first["training_samples"] > 0
+    before = pixels(tmp_path, "still.exr")
+    again = run(*guided, "--spp", FEW, "--resume", "--keep-checkpoint").json
+    assert again["samples"] == 0
+    assert pixels(tmp_path, "still.exr") == before
+    more = run(*guided, "--spp", MANY, "--resume")
+    assert more.code == 1
+    assert "guiding: then" in more.out
+
+
 def test_another_render_is_refused_and_says_why(run: Run, still: Path, tmp_path: Path) -> None:
     assert run("render", still.name, *SIZE, "--spp", FEW, "--keep-checkpoint").code == 0
     before = (tmp_path / "still.exr.checkpoint").read_bytes()

@@ -87,6 +87,8 @@ def print_render(compiled: CompiledScene, outcome: Outcome, *, everything: bool)
         f"(+ {outcome.output_seconds:.1f} s output): "
         f"{outcome.samples:,} samples, {rate:,.0f} samples/s"
     )
+    if outcome.training_samples:
+        tell(f"{outcome.training_samples:,} samples more for guiding")
     if outcome.resumed_samples:
         tell(f"{outcome.resumed_samples:,} samples were in the checkpoint")
     if outcome.checkpoint:

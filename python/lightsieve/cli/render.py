@@ -243,6 +243,15 @@ def command(
             show_default=False,
         ),
     ] = None,
+    guiding: Annotated[
+        bool,
+        typer.Option(
+            "--guiding",
+            help="Learn where light comes from, from an eighth more samples, and send part of the "
+            "rays of diffuse lobes and sheen there: less noise where caustics and indirect light "
+            "are hard to find.",
+        ),
+    ] = False,
     denoise: Annotated[
         bool,
         typer.Option(
@@ -297,6 +306,7 @@ def command(
         "lpe_table": lpe_table or "",
         "rendering_space": rendering_space,
         "isa": isa or "",
+        "guiding": guiding,
         "checkpoint": None if no_checkpoint else checkpoint,
         "resume": resume,
         "keep_checkpoint": keep_checkpoint,
