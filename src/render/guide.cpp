@@ -10,6 +10,8 @@ namespace {
 
 /// A quadrant with more of a tree's weight than this is divided. Source: Mueller et al. 2017, section 3.2.
 constexpr float kLargestShare = 0.01F;
+/// Light that is added at once: millions of times that is not more than a float can hold.
+constexpr float kMostWeight = 1e28F;
 /// Leaves of the quadtree are no smaller than 4 pi / 4^16, a tenth of the sun's disc.
 constexpr int kMostLevels = 16;
 /// Cells are no smaller than the scene's extent / 2^(48 / 3).
@@ -113,7 +115,7 @@ void DirectionTree::add(Vec2f p, float weight) {
     // What would stick out at the poles is pushed back; around the axis the square is closed.
     p.x = std::clamp(p.x, half, 1 - half);
     const Vec2f low = p - Vec2f{half, half}, high = p + Vec2f{half, half};
-    const float density = weight / (size * size);
+    const float density = std::min(weight, kMostWeight) / (size * size);
     for (const float turn : {0.0F, 1.0F, -1.0F})
         if (low.y + turn < 1 && high.y + turn > 0)
             add_box(0, {0, 0}, 1, low + Vec2f{0, turn}, high + Vec2f{0, turn}, density);

@@ -103,6 +103,17 @@ TEST(DirectionTree, LightIsSpreadOverTheSizeOfALeafAndNoneIsLost) {
     EXPECT_TRUE(DirectionTree::uniform().empty());
 }
 
+TEST(DirectionTree, BearsLightOfAnySize) {
+    // Squares of light may be more than floats can hold, and so may their sum.
+    DirectionTree tree = DirectionTree::uniform();
+    for (int i = 0; i < 100; ++i)
+        tree.add({0.3F, 0.3F}, i == 0 ? kInfinity : 3e38F);
+    tree.take_roots();
+    const Vec3f there = direction_from_square({0.3F, 0.3F});
+    EXPECT_TRUE(std::isfinite(tree.pdf(there)) && tree.pdf(there) > 1);
+    EXPECT_GT(dot(tree.sample({0.5F, 0.5F}), there), 0.9F);
+}
+
 TEST(Guide, CellsAreHalvedUntilNoneIsLearnedFromTooMuch) {
     Guide guide(Box3f{{-1, 0, 0}, {1, 1, 0.5F}});
     ASSERT_EQ(guide.cells().size(), 6U);
