@@ -49,8 +49,8 @@ class Settings(TypedDict, total=False):
     rendering_space: str
     """Colour space that light is computed in, by name; empty: as the scene says, or ACEScg."""
     guiding: bool
-    """Learn where light comes from, from an eighth more samples, and send part of the rays of broad
-    lobes there: less noise in caustics and indirect light."""
+    """Learn where light comes from, from an eighth more samples, and send part of the rays of
+    diffuse lobes and sheen there: less noise where caustics must be found by chance."""
     checkpoint: float | None
     """Minutes between two writes of what is done to FILE.checkpoint beside the first file; 0: only
     when the render ends before time; None: never, unless `resume` or `keep_checkpoint` ask for

@@ -32,8 +32,8 @@ KEYS = {
     "times": "seconds by stage: `read`, `compile`, `textures` (opened), `volumes` (read), `accel` "
     "(structures for rays), `render`, `write`",
     "memory": "bytes at the end by what they hold: `geometry`, `accel`, `volumes`, `textures`, "
-    "`automata`, `guide`, `film`, `layers` (kept for Python), `output`, `checkpoint`, `other` (the "
-    "rest of the peak: the program, the scene as it was read)",
+    "`automata`, `guide`, `film`, `layers` (kept for Python), `output`, `checkpoint`, `other` "
+    "(the rest of the peak: the program, the scene as it was read)",
     "peak_memory": "the most bytes that the process ever held",
     "forecast": "before the first ray: `memory` (at most, by the same names), `total`, "
     "`file_bytes` (by file, before compression), `checkpoint_bytes` (of that file, at most)",
