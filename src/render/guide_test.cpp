@@ -38,6 +38,7 @@ DirectionTree spots() {
 
 TEST(DirectionTree, SquareKeepsDirectionsAndAreas) {
     constexpr int kSide = 64;
+    Vec3f squares;  // a third each, if no direction gets more area than another
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             const Vec2f p{(static_cast<float>(x) + 0.5F) / kSide,
@@ -47,7 +48,10 @@ TEST(DirectionTree, SquareKeepsDirectionsAndAreas) {
             EXPECT_NEAR(length(d), 1, 1e-6);
             EXPECT_NEAR(back.x, p.x, 1e-5);
             EXPECT_NEAR(back.y, p.y, 1e-5);
+            squares += Vec3f{d.x * d.x, d.y * d.y, d.z * d.z} * (1.0F / (kSide * kSide));
         }
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(squares[i], 1.0 / 3, 1e-3);
     for (const Vec3f axis :
          {Vec3f{0, 0, 1}, Vec3f{0, 0, -1}, Vec3f{-1, 0, 0}, Vec3f{1, -0.0F, 0}}) {
         const Vec2f p = square_from_direction(axis);
@@ -212,11 +216,21 @@ TEST(Guiding, MovesNoMean) {
     }
 }
 
+/// Enough for a guide that acts, and few enough to log every path.
+constexpr int kFewSamples = 256;
+
+/// Whether the picture is another one than without guiding.
+bool has_acted(const Picture& picture, const std::string& text, RenderOptions options) {
+    options.guiding = false;
+    return !check_identical(picture, "RGBA", render(text, options), "RGBA");
+}
+
 TEST(Guiding, LayersAddUpAndAreWhatThePathsSay) {
     RenderOptions options = guided(kAovs);
-    options.spp = 8;
-    const TestScene scene(caustic(), options);
+    options.spp = kFewSamples;
+    const TestScene scene(room(), options);
     const Picture picture = render(scene);
+    EXPECT_TRUE(has_acted(picture, room(), options));
     EXPECT_TRUE(check_sum(picture, "RGBA", {"direct", "indirect"}));
     EXPECT_TRUE(check_oracle(scene.scene(), picture, log_paths(scene.scene())));
 }
@@ -241,13 +255,13 @@ TEST(Guiding, GuidesNothingWhereThereIsNothingToLearn) {
 
 TEST(Guiding, NeitherThreadsNorAovsMatter) {
     RenderOptions one = guided(kAovs);
-    one.spp = 16;
+    one.spp = kFewSamples;
     one.threads = 1;
     RenderOptions two = one, bare = guided();
     two.threads = 2;
-    bare.spp = 16;
-    const Picture a = render(caustic(), one), b = render(caustic(), two),
-                  c = render(caustic(), bare);
+    bare.spp = kFewSamples;
+    const Picture a = render(room(), one), b = render(room(), two), c = render(room(), bare);
+    EXPECT_TRUE(has_acted(a, room(), one));
     for (const char* layer : {"RGBA", "direct", "indirect", "diffuse_indirect", "specular"})
         EXPECT_TRUE(check_identical(a, layer, b, layer)) << layer;
     EXPECT_TRUE(check_identical(a, "RGBA", c, "RGBA"));

@@ -145,8 +145,8 @@ MemoryForecast forecast_memory(const Scene& scene) {
     const std::size_t n_threads = std::min(
         n_buckets, static_cast<std::size_t>(s.threads > 0 ? s.threads : hardware_threads()));
     const BucketMemory bucket = bucket_memory(scene);
-    // Three sums and a count tell the noise of a layer in a bucket.
     use.guide = training_memory(scene);
+    // Three sums and a count tell the noise of a layer in a bucket.
     use.film = n_threads * (bucket.film + bucket.layers) +
                n_buckets * scene.plan.layers.size() * 4 * sizeof(double);
     if (scene.capture)

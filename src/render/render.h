@@ -96,10 +96,9 @@ using ScenePtr = std::unique_ptr<Scene, SceneDelete>;
 [[nodiscard]] SceneSummary summarize(const Scene& scene);
 
 struct RenderProgress {
-    std::uint64_t samples_done = 0,
-                  samples_total =
-                      0;  ///< camera samples, those that guiding learns from among them
-    double seconds = 0;   ///< since the first ray
+    /// Of the camera, those that guiding learns from among them.
+    std::uint64_t samples_done = 0, samples_total = 0;
+    double seconds = 0;  ///< since the first ray
     /// Of the buckets that are done: a pixel's standard error over how bright pixels are, both root mean square, of the layer that
     /// adaptive sampling goes by or the first one of light. Below 0: not known yet.
     double noise = -1;
