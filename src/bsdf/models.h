@@ -35,14 +35,11 @@ using LobeModel =
 
 /// Broad lobes take light from most of a hemisphere: where it comes from matters more than what the lobe says.
 [[nodiscard]] inline bool is_broad(const LobeModel& model) noexcept {
-    return std::visit(
-        []<class Model>(const Model&) {
-            return std::is_same_v<Model, DiffuseReflect> ||
-                   std::is_same_v<Model, DiffuseTransmit> ||
-                   std::is_same_v<Model, BurleyReflect> ||
-                   std::is_same_v<Model, OrenNayarReflect> || std::is_same_v<Model, SheenReflect>;
-        },
-        model);
+    return std::holds_alternative<DiffuseReflect>(model) ||
+           std::holds_alternative<DiffuseTransmit>(model) ||
+           std::holds_alternative<BurleyReflect>(model) ||
+           std::holds_alternative<OrenNayarReflect>(model) ||
+           std::holds_alternative<SheenReflect>(model);
 }
 
 /// Diffuse reflection by Arnold's diffuse_roughness.

@@ -582,6 +582,7 @@ bool Accel::intersect(const Ray& ray, std::uint32_t mask, RayHit& hit) const noe
 
 bool Accel::occluded(const Ray& ray, std::uint32_t mask) const noexcept {
     if (!can_be_traced(ray)) return false;
+    if (state_->boxes && !state_->boxes->may_meet(ray)) return false;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay r = to_embree(ray, mask);

@@ -45,6 +45,7 @@ void Compiler::make_accels() {
     for (const SceneObject& object : scene_->objects) {
         const std::uint32_t mask = mask_of(object);
         scene_->has_transparency |= (mask & kMaskShadowTransparent) != 0;
+        scene_->rays_may_pass |= object.may_be_passed();
         objects.push_back({object.geometry, object.world_from_object, mask});
     }
     scene_->accel = std::make_unique<Accel>(objects, options_.isa);

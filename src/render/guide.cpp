@@ -15,7 +15,7 @@ constexpr float kMostWeight = 1e28F;
 /// Leaves of the quadtree are no smaller than 4 pi / 4^16, a tenth of the sun's disc.
 constexpr int kMostLevels = 16;
 /// Cells are no smaller than the scene's extent / 2^(48 / 3).
-constexpr int kMostSplits = 48;
+constexpr unsigned kMostSplits = 48;
 
 /// The half of [0,1) that `u` is in, of which the lower one has weight `low` of `total`; u becomes a number of its own again.
 bool choose_upper(float& u, float low, float total) {
@@ -35,6 +35,24 @@ std::uint32_t facing_of(Vec3f n) {
     const Vec3f size{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     return static_cast<std::uint32_t>(2 * axis + (n[axis] < 0 ? 1 : 0));
+}
+
+/// The lower 16 digits of a binary number, two apart.
+constexpr std::uint64_t spread_digits(std::uint64_t v) {
+    v = (v | v << 16U) & 0x0000'0000'ff00'00ffU;
+    v = (v | v << 8U) & 0x0000'00f0'0f00'f00fU;
+    v = (v | v << 4U) & 0x0000'0c30'c30c'30c3U;
+    return (v | v << 2U) & 0x0000'2492'4924'9249U;
+}
+
+/// Which half of the unit cube the point lies in, by x; which half of that, by y; then by z, and again by x: kMostSplits
+/// binary digits.
+std::uint64_t digits_in_turns(Vec3f p) {
+    const auto digits = [](float v) {
+        constexpr float kEnd = 0x1p16F;
+        return spread_digits(v > 0 ? static_cast<std::uint32_t>(std::min(v * kEnd, kEnd - 1)) : 0);
+    };
+    return digits(p.x) << 2U | digits(p.y) << 1U | digits(p.z);
 }
 
 /// The quadrant of the unit square that the point lies in; the point moves on to the quadrant's own square.
@@ -74,12 +92,14 @@ Vec3f DirectionTree::sample(Vec2f u) const {
 }
 
 float DirectionTree::pdf(Vec3f direction) const {
-    Vec2f p = square_from_direction(direction);
-    float density = 0.25F * kInvPi;
-    for (const Node* node = nodes_.data();;) {
-        const std::size_t q = enter_quadrant(p);
-        density *= 4 * node->weight[q] / node->total();
-        if (!(density > 0) || node->child[q] == 0) return density;
+    // A quadrant weighs what lies in it, so the leaf and the whole tell the density.
+    const Vec2f p = square_from_direction(direction);
+    auto x = static_cast<std::uint32_t>(p.x * 0x1p24F), y = static_cast<std::uint32_t>(p.y * 0x1p24F);
+    float leaves = 0.25F * kInvPi;  // like this one, per solid angle
+    for (const Node* node = nodes_.data();; x <<= 1U, y <<= 1U) {
+        const std::size_t q = ((x >> 23U) & 1U) | ((y >> 22U) & 2U);
+        leaves *= 4;
+        if (node->child[q] == 0) return leaves * (node->weight[q] / total());
         node = &nodes_[node->child[q]];
     }
 }
@@ -168,7 +188,7 @@ void DirectionTree::refine(DirectionTree& out, std::uint32_t to, const Node* fro
 
 Guide::Guide(const Box3f& bounds) : bounds_(bounds), cells_(kFacings) {
     for (std::uint32_t i = 0; i < kFacings; ++i)
-        nodes_.push_back({0, i, 0});
+        nodes_.push_back({0, i});
     const Vec3f size = bounds.size();
     const float extent = std::max({size.x, size.y, size.z});
     const Vec3f half = Vec3f{extent, extent, extent} * 0.5F;
@@ -177,23 +197,17 @@ Guide::Guide(const Box3f& bounds) : bounds_(bounds), cells_(kFacings) {
 }
 
 std::uint32_t Guide::cell_at(Vec3f position, Vec3f normal) const {
-    Vec3f p = position - bounds_.lower;
-    p = {std::clamp(p.x * per_extent_.x, 0.0F, kOneMinusEpsilon),
-         std::clamp(p.y * per_extent_.y, 0.0F, kOneMinusEpsilon),
-         std::clamp(p.z * per_extent_.z, 0.0F, kOneMinusEpsilon)};
+    const Vec3f p = position - bounds_.lower;
+    std::uint64_t halves = digits_in_turns({p.x * per_extent_.x, p.y * per_extent_.y, p.z * per_extent_.z});
     const Node* node = &nodes_[facing_of(normal)];
-    while (node->children != 0) {
-        float& x = p[node->axis];
-        const bool upper = x >= 0.5F;
-        x = 2 * x - (upper ? 1.0F : 0.0F);
-        node = &nodes_[node->children + (upper ? 1U : 0U)];
-    }
+    for (; node->children != 0; halves <<= 1U)
+        node = &nodes_[node->children + ((halves >> (kMostSplits - 1U)) & 1U)];
     return node->cell;
 }
 
 void Guide::split(std::uint64_t most) {
     const std::size_t n = nodes_.size();
-    std::vector<int> depth(n);
+    std::vector<unsigned> depth(n);
     for (std::uint32_t i = 0; i < n; ++i) {
         // Children stand behind their parents.
         if (nodes_[i].children == 0) {
@@ -204,7 +218,7 @@ void Guide::split(std::uint64_t most) {
     }
 }
 
-void Guide::split(std::uint32_t index, std::uint64_t most, int depth) {
+void Guide::split(std::uint32_t index, std::uint64_t most, unsigned depth) {
     const std::uint32_t cell = nodes_[index].cell;
     if (cells_[cell].n_records <= most || depth >= kMostSplits || cells_.size() >= kMostCells)
         return;
@@ -212,12 +226,16 @@ void Guide::split(std::uint32_t index, std::uint64_t most, int depth) {
     const auto copy = static_cast<std::uint32_t>(cells_.size());
     cells_.push_back(Cell(cells_[cell]));
     const auto children = static_cast<std::uint32_t>(nodes_.size());
-    const int axis = nodes_[index].axis;
-    nodes_.push_back({0, cell, (axis + 1) % 3});
-    nodes_.push_back({0, copy, (axis + 1) % 3});
+    nodes_.push_back({0, cell});
+    nodes_.push_back({0, copy});
     nodes_[index].children = children;
     split(children, most, depth + 1);
     split(children + 1, most, depth + 1);
+}
+
+bool Guide::guides() const {
+    return std::ranges::any_of(
+        cells_, [](const Cell& cell) { return cell.share > 0 && !cell.tree.empty(); });
 }
 
 std::size_t Guide::memory() const {

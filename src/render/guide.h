@@ -34,7 +34,8 @@ class DirectionTree {
 
     /// A direction. u in [0,1)^2. Not for empty trees.
     [[nodiscard]] Vec3f sample(Vec2f u) const;
-    /// Density of sample() per solid angle. Not for empty trees.
+    /// Density of sample() per solid angle. Not for empty trees, nor between `add` and `take_roots`: nodes and what lies in them
+    /// have been rounded apart.
     [[nodiscard]] float pdf(Vec3f direction) const;
 
     /// Adds light at a point of the square, spread over a box as large as the leaf that the point lies in: few samples make
@@ -88,15 +89,16 @@ class Guide {
     /// Halves each cell until none was learned from more than `most` records, or there are kMostCells. The parts are taken for
     /// equal.
     void split(std::uint64_t most);
+    /// Whether any cell guides rays.
+    [[nodiscard]] bool guides() const;
     [[nodiscard]] std::size_t memory() const;
 
   private:
     struct Node {
         std::uint32_t children = 0;  ///< the first of two neighbours; 0: a leaf
         std::uint32_t cell = 0;
-        int axis = 0;
     };
-    void split(std::uint32_t node, std::uint64_t most, int depth);
+    void split(std::uint32_t node, std::uint64_t most, unsigned depth);
 
     Box3f bounds_;  ///< a cube
     Vec3f per_extent_;

@@ -241,6 +241,16 @@ TEST(Guiding, FindsCaustics) {
     EXPECT_LT(variance(room(), with), 0.6 * variance(room(), without));
 }
 
+/// Renders what must complain that guiding is no use, and of nothing else.
+Picture useless(const TestScene& scene) {
+    Diagnostics diagnostics;
+    RenderResult result = render_scene(scene.scene(), {}, diagnostics);
+    EXPECT_EQ(diagnostics.items().size(), 1U);
+    for (const auto& d : diagnostics.items())
+        EXPECT_EQ(d.code, Code::GuidingUseless);
+    return Picture(std::move(result));
+}
+
 TEST(Guiding, GuidesNothingWhereThereIsNothingToLearn) {
     // Under an even sky a diffuse lobe knows best: no cell takes the guide's advice, so the bits are the same.
     const std::string text =
@@ -250,7 +260,7 @@ TEST(Guiding, GuidesNothingWhereThereIsNothingToLearn) {
         node("flat", "sky", " color 1 1 1");
     RenderOptions with = guided(), without = in_memory();
     with.spp = without.spp = 64;
-    EXPECT_TRUE(check_identical(render(text, with), "RGBA", render(text, without), "RGBA"));
+    EXPECT_TRUE(check_identical(useless(TestScene(text, with)), "RGBA", render(text, without), "RGBA"));
 }
 
 TEST(Guiding, NeitherThreadsNorAovsMatter) {
@@ -284,7 +294,14 @@ TEST(Guiding, IsToldAndForetold) {
 
 TEST(Guiding, LearnsNothingWhereNoLightIsAskedFor) {
     const TestScene scene(caustic(outputs({"Z FLOAT f d"})), guided());
-    EXPECT_EQ(render(scene).result().training_samples, 0U);
+    EXPECT_EQ(useless(scene).result().training_samples, 0U);
+}
+
+TEST(Guiding, SaysThatPlanesWithoutEndHaveNoPlaces) {
+    const std::string text = frame_text(8, 8, 8, from_above(1), " GI_diffuse_depth 1\n") +
+                             lambert("grey", 0.6F) + node("plane", "ground", " shader \"grey\"") +
+                             square_light("key", 1.8F, 0.5F, "");
+    EXPECT_EQ(useless(TestScene(text, guided())).result().training_samples, 0U);
 }
 
 TEST(Guiding, EndsWhenItIsStopped) {

@@ -118,6 +118,7 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
         if (path_.exit_pending) add_exit_background(ray);
         lights_only_ = std::all_of(path_.groups.all().begin(), path_.groups.all().end(),
                                    [](const PathGroup& g) { return g.key.lights_only(); });
+        if (lights_only_ && misses_area_lights(ray)) return add_infinite_end(ray);
         RayHit hit;
         ++counts.rays_of(ray_kind_of(path_.groups[0].key.ray_type()));
         const bool met = scene_.accel->intersect(ray, ray_mask(), hit);
@@ -133,7 +134,7 @@ void Integrator<Tracker>::follow(Ray ray, const Mat4f& camera_from_world) {
         if (passage == Passage::Ended) return;
         const bool in_medium = passage == Passage::Scattered;
         if (!in_medium && !met) return add_escape(ray);
-        if (!in_medium && lights_only_ && !scene_.objects[hit.object].may_be_transparent) return;
+        if (!in_medium && lights_only_ && !scene_.objects[hit.object].may_be_passed()) return;
         // Made in place: points are too large to copy.
         Surface surface =
             in_medium ? Surface(medium_vertex_)
@@ -198,6 +199,22 @@ auto Integrator<Tracker>::pass(const Ray& ray, float t_surface) -> Passage {
     if (scene_.light_accel && !by_shadow_rays())
         if (const Passage end = add_area_lights(ray, t_surface); end != Passage::Free) return end;
     return travel(ray, t_surface);
+}
+
+/// A ray that may only meet lights, and that no area light is on the way of: it is enough to know whether it gets away.
+/// False also where surfaces and media on its way would have to be looked at.
+template <class Tracker>
+bool Integrator<Tracker>::misses_area_lights(const Ray& ray) const {
+    if (scene_.rays_may_pass || scene_.shadows_by_mask || through_media() || media_.active())
+        return false;
+    return !scene_.light_accel || !scene_.light_accel->occluded(ray, 0xffffffffU);
+}
+
+template <class Tracker>
+void Integrator<Tracker>::add_infinite_end(const Ray& ray) {
+    if (scene_.infinite_lights.empty()) return;
+    ++counts.rays_of(ray_kind_of(path_.groups[0].key.ray_type()));
+    if (!scene_.accel->occluded(ray, ray_mask())) add_escape(ray);
 }
 
 /// Light and opacity that follow come from there, if the camera sees it directly.

@@ -47,7 +47,7 @@ template <class Tracker>
 class Integrator {
   public:
     explicit Integrator(const Scene& scene)
-        : scene_(scene), culling_(scene.culling), tracker_(scene) {}
+        : scene_(scene), culling_(scene.culling), tracker_(scene), depth_steps_(scene.depth_rules) {}
 
     /// Sends part of the rays of broad lobes where the guide says. It must outlive all paths; null: no rays.
     void set_guide(const Guide* guide) { guide_ = guide; }
@@ -130,6 +130,8 @@ class Integrator {
     /// Through media and past area lights up to the next surface.
     [[nodiscard]] Passage pass(const Ray& ray, float t_surface);
     [[nodiscard]] Passage add_area_lights(const Ray& ray, float t_surface);
+    [[nodiscard]] bool misses_area_lights(const Ray& ray) const;
+    void add_infinite_end(const Ray& ray);
     void add_escape(const Ray& ray);
     float add_infinite_lights(const Ray& ray);
     void add_exit_background(const Ray& ray);
@@ -161,6 +163,7 @@ class Integrator {
     void note_mattes(float weight);
     void gather_channels(const Surface& surface);
     void add_probes();
+    [[nodiscard]] bool leads_on(const Channel& channel) const;
     void choose_probabilities();
     void add_light_samples(const Surface& surface);
     /// Goes on straight or by a scatterer, whichever is drawn; false if the path ends.
@@ -402,6 +405,7 @@ class Integrator {
     std::size_t n_forks_ = 0;
     Fork before_;            ///< the path as it came to the vertex where it splits
     PathGroups::Step step_;  ///< of `advance`
+    DepthSteps depth_steps_;
     ClosureSet closures_, shadow_closures_;
     std::vector<WrittenAov> written_;    ///< by shaders at the current hit
     std::vector<std::uint32_t> mattes_;  ///< ids that they write there

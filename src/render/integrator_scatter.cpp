@@ -32,9 +32,30 @@ void widen(Footprint& footprint, float t, float pdf, int n_samples) {
 
 }  // namespace
 
+/// Whether any of the path's throughput may go on through the channel.
+template <class Tracker>
+bool Integrator<Tracker>::leads_on(const Channel& channel) const {
+    if (culling_ == Culling::Lobes && !tracker_.goes_on(channel)) return false;
+    for (std::size_t g = 0; g < path_.groups.all().size(); ++g) {
+        const PathGroup& group = path_.groups[g];
+        if (!group.key.lights_only() && channel_allowed(group.key, channel) &&
+            !is_black(group.throughput * path_.groups.indirect(g)))
+            return true;
+    }
+    return false;
+}
+
 /// How likely each closure, or passing straight through, is drawn: by what it can carry on.
 template <class Tracker>
 void Integrator<Tracker>::choose_probabilities() {
+    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
+    if (n == 1 && is_black(closures_.transparency())) {
+        // No choice: what the lobe returns need not be known.
+        mixture_[0] = is_enabled(channels_[0]) ? 0 : kNoRays;
+        probability_[0] = is_enabled(0) && leads_on(channels_[0]) ? 1 : 0;
+        pass_probability_ = 0;
+        return;
+    }
     // Throughput that may use each channel.
     const std::span<Color> reach(reach_.data(), n_channels_);
     std::ranges::fill(reach, kBlack);
@@ -47,13 +68,6 @@ void Integrator<Tracker>::choose_probabilities() {
                 reach[c] += path_.groups[g].throughput * path_.groups.indirect(g);
     }
     float total = 0;
-    const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
-    if (n == 1 && is_black(closures_.transparency())) {
-        // No choice: what the lobe returns need not be known.
-        probability_[0] = is_black(reach[0]) || !is_enabled(0) ? 0 : 1;
-        pass_probability_ = 0;
-        return;
-    }
     for (std::size_t i = 0; i < n; ++i) {
         carries_[i] = is_enabled(i) ? reach[channel_of_[i]] * albedo_of(i) : kBlack;
         probability_[i] = std::max(0.0F, luminance(carries_[i]));
@@ -181,7 +195,7 @@ void Integrator<Tracker>::see_past(std::span<const Color> factors) {
         if (!channels_[c].record->makes_no_event || is_black(factors[c])) continue;
         for (const PathGroup& g : path_.groups.all()) {
             if (!g.key.seen() ||
-                !scene_.depth_rules.next(g.key, *channels_[c].record).lights_only())
+                !depth_steps_.next(g.key, *channels_[c].record).lights_only())
                 continue;
             out_->add_alpha(average(path_.passed), path_.passed);
             path_.passed = kBlack;
@@ -204,7 +218,7 @@ bool Integrator<Tracker>::advance(std::span<const Color> factors,
         counted = std::span<const Channel>(as_drawn.data(), n_channels_);
 #endif
     if (seen()) see_past(factors);
-    path_.groups.scatter(counted, factors, scene_.depth_rules, coin, step_);
+    path_.groups.scatter(counted, factors, depth_steps_, coin, step_);
     tracker_.scatter(channels, factors, step_, coin);
     ++path_.n_scatter;
     if (is_black(path_.groups.total())) return false;
@@ -277,6 +291,7 @@ bool Integrator<Tracker>::survives_roulette() {
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
 #define LIGHTSIEVE_SCATTER(Tracker)                                                             \
+    template bool Integrator<Tracker>::leads_on(const Channel&) const;                          \
     template void Integrator<Tracker>::choose_probabilities();                                  \
     template std::optional<std::size_t> Integrator<Tracker>::draw(float, std::optional<GiKind>) \
         const;                                                                                  \

@@ -70,6 +70,8 @@ class GroupKey {
     constexpr void set_indirect(std::uint8_t index) {
         word_ = (word_ & ~(kByte << kIndirectShift)) | std::uint64_t{index} << kIndirectShift;
     }
+    /// All of it, for tables.
+    [[nodiscard]] constexpr std::uint64_t bits() const { return word_; }
     friend constexpr bool operator==(GroupKey, GroupKey) = default;
 
   private:
@@ -172,6 +174,35 @@ class DepthRules {
 
 static_assert(sizeof(GroupKey) == 8);
 
+/// Remembers answers of DepthRules: paths ask for few different steps, over and over. One for each thread.
+class DepthSteps {
+  public:
+    /// rules  and the records that it is asked for must outlive it
+    explicit DepthSteps(const DepthRules& rules) : rules_(rules) {}
+
+    [[nodiscard]] GroupKey next(GroupKey key, const LobeRecord& through) {
+        Known& known = known_[place(key, through)];
+        if (known.through != &through || !(known.from == key))
+            known = {&through, key, rules_.next(key, through)};
+        return known.to;
+    }
+
+  private:
+    struct Known {
+        const LobeRecord* through = nullptr;
+        GroupKey from, to;
+    };
+    static constexpr unsigned kPlaceBits = 7;
+    static std::size_t place(GroupKey key, const LobeRecord& through) {
+        const auto mixed =
+            key.bits() ^ (reinterpret_cast<std::uintptr_t>(&through) / alignof(LobeRecord));
+        return (mixed * 0x9e3779b97f4a7c15U) >> (64U - kPlaceBits);
+    }
+
+    const DepthRules& rules_;
+    std::array<Known, std::size_t{1} << kPlaceBits> known_;
+};
+
 struct PathGroup {
     GroupKey key;
     Color throughput;
@@ -240,7 +271,7 @@ class PathGroups {
     /// random  gives uniform numbers, used only when there are too many groups
     template <class Random>
     void scatter(std::span<const Channel> channels, std::span<const Color> factors,
-                 const DepthRules& rules, const Random& random, Step& step) {
+                 DepthSteps& steps, const Random& random, Step& step) {
         std::array<PathGroup, kMaxCandidates>& candidates = step.candidates;
         // The factors that waited, and those that wait from now on: two lists in turn.
         const std::array<Waiting, kMaxFactors>& waiting = factors_[current_];
@@ -259,7 +290,7 @@ class PathGroups {
                 if (groups_[g].key.lights_only() || is_black(factors[c]) || scale == 0 ||
                     !channel_allowed(groups_[g].key, channels[c]))
                     continue;
-                GroupKey key = rules.next(groups_[g].key, *channels[c].record);
+                GroupKey key = steps.next(groups_[g].key, *channels[c].record);
                 key.set_indirect(factor_of[c]);
                 std::size_t i = 0;
                 while (i < n && !(candidates[i].key == key))

@@ -193,6 +193,23 @@ TEST(DepthRules, TypesThatNothingTellsApartAreOne) {
     EXPECT_EQ(rules.next({}, kRecords[3]).ray_type(), rules.next({}, kRecords[1]).ray_type());
 }
 
+TEST(DepthSteps, AreThoseOfTheRules) {
+    // Far more keys than there are places: answers must not be mixed up.
+    const DepthRules rules({250, 250, 250, 250, 250}, kAllMatter);
+    DepthSteps steps(rules);
+    std::mt19937 random(5);
+    for (int path = 0; path < 500; ++path) {
+        GroupKey key;
+        for (int vertex = 0; vertex < 20; ++vertex) {
+            const LobeRecord& through = kRecords[random() % kRecords.size()];
+            const GroupKey next = rules.next(key, through);
+            ASSERT_EQ(steps.next(key, through), next);
+            ASSERT_EQ(steps.next(key, through), next) << "the second time";
+            key = next;
+        }
+    }
+}
+
 // Groups and terms -----------------------------------------------------------------------------------------------------
 
 std::array<Channel, 4> four_channels() {
@@ -244,6 +261,7 @@ TEST(PathTerms, FollowTheGroupsAndStayUnbiasedWhenTheyAreJoined) {
     std::uniform_real_distribution<float> uniform(0, 1);
     const auto random = [&](std::uint32_t) { return std::min(uniform(generator), 0.99999994F); };
     const CountingMachine machine;
+    DepthSteps steps(rules);
     PathGroups groups;
     PathTerms<CountingMachine> terms;
     for (int run = 0; run < kRuns; ++run) {
@@ -251,7 +269,7 @@ TEST(PathTerms, FollowTheGroupsAndStayUnbiasedWhenTheyAreJoined) {
         terms.start(machine, kWhite);
         for (int v = 0; v < kVertices; ++v) {
             PathGroups::Step step;
-            groups.scatter(std::span<const Channel>(channels), kFactors, rules, random, step);
+            groups.scatter(std::span<const Channel>(channels), kFactors, steps, random, step);
             terms.scatter(machine, channels, kFactors, step, random);
             ASSERT_LE(groups.all().size(), PathGroups::kMaxGroups);
             ASSERT_LE(terms.all().size(), CountingMachine::kMaxTerms);
@@ -289,6 +307,7 @@ TEST(PathGroups, JoiningReallyHappens) {
     // Guards the test above: without more candidates than kMaxGroups it would show nothing.
     const DepthRules rules({250, 3, 250, 250, 250}, kAllMatter);
     const std::array<Channel, 4> channels = four_channels();
+    DepthSteps steps(rules);
     PathGroups groups;
     groups.start(kWhite);
     bool drew = false;
@@ -298,7 +317,7 @@ TEST(PathGroups, JoiningReallyHappens) {
     };
     for (int v = 0; v < 6; ++v) {
         PathGroups::Step step;
-        groups.scatter(std::span<const Channel>(channels), kFactors, rules, random, step);
+        groups.scatter(std::span<const Channel>(channels), kFactors, steps, random, step);
     }
     EXPECT_TRUE(drew);
     EXPECT_EQ(groups.all().size(), PathGroups::kMaxGroups);

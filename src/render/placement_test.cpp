@@ -51,6 +51,17 @@ TEST(Shapes, SidednessHidesBackFaces) {
     EXPECT_TRUE(check_black(render(lit + facing_down(" sidedness 253")), "RGBA"));
 }
 
+TEST(Shapes, SidesThatNobodySeesHideNoLight) {
+    // Light comes by shadow rays and by rays that meet the lamp, here past all depth limits. All of them meet the back of
+    // the plane.
+    const std::string lit =
+        frame_text(24, 24, 8, ortho_camera({0.3F, -0.5F, 0}, {0, -1, 0}, 0.01F),
+                   " GI_diffuse_depth 0") +
+        lambert("grey", 0.5F) + floor("ground", -1, 3, "grey") + square_light("lamp", 1, 1.5F, "");
+    EXPECT_TRUE(check_same_mean(render(lit + floor("none", 0, 3, "grey", " sidedness 0")), "RGBA",
+                                render(lit), "RGBA"));
+}
+
 TEST(Shapes, FacesChooseTheirShader) {
     const std::string mesh = node("polymesh", "two",
                                   " nsides 2 1 UINT 4 4\n vidxs 8 1 UINT 0 1 2 3  3 2 4 5\n vlist "

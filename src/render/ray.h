@@ -34,13 +34,14 @@ inline constexpr std::uint32_t kMaskShadowTransparent =
 /// source: Waechter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems ch. 6
 [[nodiscard]] inline Vec3f offset_ray_origin(Vec3f p, Vec3f n) {
     constexpr float kOrigin = 1.0F / 32, kFloatScale = 1.0F / 65536, kIntScale = 256;
-    const auto shift = [&](float x, float d) {
-        const auto steps = static_cast<std::int32_t>(kIntScale * d);
-        std::int32_t bits = __builtin_bit_cast(std::int32_t, x);
-        bits += x < 0 ? -steps : steps;
-        return std::abs(x) < kOrigin ? x + kFloatScale * d : __builtin_bit_cast(float, bits);
-    };
-    return {shift(p.x, n.x), shift(p.y, n.y), shift(p.z, n.z)};
+    using Float4 = float __attribute__((vector_size(16)));
+    using Int4 = std::int32_t __attribute__((vector_size(16)));
+    const Float4 from{p.x, p.y, p.z, 0}, along{n.x, n.y, n.z, 0};
+    const Int4 steps = __builtin_convertvector(along * kIntScale, Int4);
+    const Int4 moved = __builtin_bit_cast(Int4, from) + (from < 0 ? -steps : steps);
+    const Int4 near_zero = (from < kOrigin) & (from > -kOrigin);
+    const Float4 to = near_zero ? from + along * kFloatScale : __builtin_bit_cast(Float4, moved);
+    return {to[0], to[1], to[2]};
 }
 
 }  // namespace lightsieve

@@ -250,7 +250,7 @@ Worker& Renderer::worker() {
     const std::lock_guard lock(workers_mutex_);
     if (idle_.empty()) {
         idle_.push_back(std::make_unique<Worker>(scene_));
-        idle_.back()->integrator.set_guide(guide_.get());
+        if (guide_ && guide_->guides()) idle_.back()->integrator.set_guide(guide_.get());
     }
     workers_.push_back(std::move(idle_.back()));
     idle_.pop_back();
@@ -335,6 +335,12 @@ void Renderer::learn_guide() {
     result_.training_samples = training.n_samples;
     for (std::size_t i = 0; i < training.rays.size(); ++i)
         result_.rays_by_kind[i] += training.rays[i];
+    if (scene_.settings.guiding && !stopped() && !(guide_ && guide_->guides()))
+        diagnostics_.warning(
+            Code::GuidingUseless,
+            "guiding has learned nothing that makes the picture quieter: no ray is guided",
+            {},
+            "render without it, or with more samples: it learns from an eighth of them");
 }
 
 /// Renders a bucket, or what there is time for: pixels are divided by the filter weight that they got, so a bucket that was

@@ -154,6 +154,7 @@ class Scene {
     bool shadows_by_mask =
         false;  ///< some shape hides lights from shadow rays only, or from others only
     bool has_transparency = false;             ///< some shape may be transparent to shadows
+    bool rays_may_pass = false;                ///< some shape may be passed by other rays
     bool lights_can_be_met = false;            ///< some ray may meet some light by chance
     bool disperses = false;                    ///< some shader bends light by wavelength
     bool capture = false, write_files = true;  ///< as RenderOptions

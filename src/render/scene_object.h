@@ -60,6 +60,8 @@ struct SceneObject {
         true;              ///< its shaders look at uv or tangents: frames lie along the tangent
     bool wants_uv = true;  ///< somebody looks at uv: a shader of it, or an output
     bool is_cut = false;   ///< parts of it are not there: Scene::cutters knows which
+    /// Rays that meet it may go on behind it, so that what they meet there counts.
+    [[nodiscard]] bool may_be_passed() const { return may_be_transparent || sidedness != 255; }
     /// What hides lights from it is not what hides them from a ray that leaves it: only light samples find lights.
     [[nodiscard]] bool tampers_with_shadows() const { return !receive_shadows || !self_shadows; }
 };

@@ -58,6 +58,21 @@ TEST(Statistics, EveryKindOfRayIsOfItsKind) {
     EXPECT_GT(rays(wax, RayKind::Subsurface), 0U);
 }
 
+TEST(Statistics, RaysThatCanOnlyMissLampsAreNotTraced) {
+    const auto diffuse_rays = [](const std::string& light) {
+        return rays(render(frame_text(16, 16, 2, from_above(1), " GI_diffuse_depth 0") +
+                           lambert("white", 0.8F) + floor("ground", 0, 2, "white") + light)
+                        .result(),
+                    RayKind::Diffuse);
+    };
+    // The lamp fills a thirtieth of the hemisphere, the sky all of it.
+    const std::uint64_t to_lamp = diffuse_rays(square_light("key", 1.8F, 0.3F, "")),
+                        to_sky = diffuse_rays(node("skydome_light", "sky", ""));
+    EXPECT_GT(to_lamp, 0U);
+    EXPECT_LT(to_lamp, to_sky / 8);
+    EXPECT_GE(to_sky, 16U * 16U * 4U);
+}
+
 TEST(Statistics, ProgressKnowsTheNoiseOfWhatIsDone) {
     const TestScene scene(room(32, " bucket_size 16"));
     std::vector<double> told;
