@@ -1,6 +1,7 @@
 // Diagnostics, matrices, sampling: the things that everything else leans on.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 #include "core/diagnostics.h"
@@ -71,6 +72,27 @@ TEST(Frames, LevelOnesAreOrthonormalAndLevel) {
     const Frame up = Frame::from_z_level({0, 1, 0}), down = Frame::from_z_level({0, -1, 0});
     EXPECT_EQ(up.y, cross(up.z, up.x));
     EXPECT_EQ(down.y, cross(down.z, down.x));
+}
+
+TEST(Colors, BlackAndFiniteAreAskedOfEveryChannel) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    for (int channel = 0; channel < 3; ++channel) {
+        const auto with = [&](float v) {
+            Color c;
+            c[channel] = v;
+            return c;
+        };
+        for (const float v : {1.0F, -1.0F, 1.2e-38F, kInfinity, -kInfinity, kNan})
+            EXPECT_FALSE(is_black(with(v))) << v << " in channel " << channel;
+        for (const float v : {0.0F, -0.0F, 1e-40F, -1e-40F})
+            EXPECT_TRUE(is_black(with(v))) << v << " in channel " << channel;
+        for (const float v : {kInfinity, -kInfinity, kNan})
+            EXPECT_FALSE(is_finite(with(v))) << v << " in channel " << channel;
+        for (const float v : {0.0F, -1e-40F, 3e38F, -3e38F})
+            EXPECT_TRUE(is_finite(with(v))) << v << " in channel " << channel;
+    }
+    EXPECT_TRUE(is_finite(Color(3e38F, 3e38F, 3e38F)));
+    EXPECT_FALSE(is_finite(Color(kInfinity, -kInfinity, 0)));
 }
 
 TEST(Sampling, DiscIsTheMapOfShirleyAndChiu) {

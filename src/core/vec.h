@@ -96,10 +96,12 @@ struct Color {
 inline constexpr Color kBlack{0, 0, 0};
 inline constexpr Color kWhite{1, 1, 1};
 
-/// By the bits, without branches: colours are asked this dozens of times a vertex.
+/// Nothing in any channel. Numbers too small to be normal (below 1.2e-38) are nothing: the renderer's threads flush them.
+/// By the exponents' bits, without branches: colours are asked this dozens of times a vertex.
 constexpr bool is_black(Color c) {
+    constexpr std::uint32_t kExponent = 0x7f80'0000U;
     const auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v); };
-    return ((bits(c.r) | bits(c.g) | bits(c.b)) << 1U) == 0;  // all but the sign
+    return ((bits(c.r) | bits(c.g) | bits(c.b)) & kExponent) == 0;
 }
 constexpr float max_component(Color c) { return std::max(c.r, std::max(c.g, c.b)); }
 constexpr float average(Color c) { return (c.r + c.g + c.b) * (1.0F / 3); }

@@ -94,7 +94,8 @@ Vec3f DirectionTree::sample(Vec2f u) const {
 float DirectionTree::pdf(Vec3f direction) const {
     // A quadrant weighs what lies in it, so the leaf and the whole tell the density.
     const Vec2f p = square_from_direction(direction);
-    auto x = static_cast<std::uint32_t>(p.x * 0x1p24F), y = static_cast<std::uint32_t>(p.y * 0x1p24F);
+    auto x = static_cast<std::uint32_t>(p.x * 0x1p24F),
+         y = static_cast<std::uint32_t>(p.y * 0x1p24F);
     float leaves = 0.25F * kInvPi;  // like this one, per solid angle
     for (const Node* node = nodes_.data();; x <<= 1U, y <<= 1U) {
         const std::size_t q = ((x >> 23U) & 1U) | ((y >> 22U) & 2U);
@@ -198,7 +199,8 @@ Guide::Guide(const Box3f& bounds) : bounds_(bounds), cells_(kFacings) {
 
 std::uint32_t Guide::cell_at(Vec3f position, Vec3f normal) const {
     const Vec3f p = position - bounds_.lower;
-    std::uint64_t halves = digits_in_turns({p.x * per_extent_.x, p.y * per_extent_.y, p.z * per_extent_.z});
+    std::uint64_t halves =
+        digits_in_turns({p.x * per_extent_.x, p.y * per_extent_.y, p.z * per_extent_.z});
     const Node* node = &nodes_[facing_of(normal)];
     for (; node->children != 0; halves <<= 1U)
         node = &nodes_[node->children + ((halves >> (kMostSplits - 1U)) & 1U)];

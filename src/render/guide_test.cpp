@@ -260,7 +260,8 @@ TEST(Guiding, GuidesNothingWhereThereIsNothingToLearn) {
         node("flat", "sky", " color 1 1 1");
     RenderOptions with = guided(), without = in_memory();
     with.spp = without.spp = 64;
-    EXPECT_TRUE(check_identical(useless(TestScene(text, with)), "RGBA", render(text, without), "RGBA"));
+    EXPECT_TRUE(
+        check_identical(useless(TestScene(text, with)), "RGBA", render(text, without), "RGBA"));
 }
 
 TEST(Guiding, NeitherThreadsNorAovsMatter) {

@@ -210,6 +210,7 @@ bool Integrator<Tracker>::misses_area_lights(const Ray& ray) const {
     return !scene_.light_accel || !scene_.light_accel->occluded(ray, 0xffffffffU);
 }
 
+/// Infinite lights at the end of such a ray.
 template <class Tracker>
 void Integrator<Tracker>::add_infinite_end(const Ray& ray) {
     if (scene_.infinite_lights.empty()) return;

@@ -47,7 +47,10 @@ template <class Tracker>
 class Integrator {
   public:
     explicit Integrator(const Scene& scene)
-        : scene_(scene), culling_(scene.culling), tracker_(scene), depth_steps_(scene.depth_rules) {}
+        : scene_(scene),
+          culling_(scene.culling),
+          tracker_(scene),
+          depth_steps_(scene.depth_rules) {}
 
     /// Sends part of the rays of broad lobes where the guide says. It must outlive all paths; null: no rays.
     void set_guide(const Guide* guide) { guide_ = guide; }

@@ -194,8 +194,7 @@ void Integrator<Tracker>::see_past(std::span<const Color> factors) {
     for (std::size_t c = 0; c < n_channels_; ++c) {
         if (!channels_[c].record->makes_no_event || is_black(factors[c])) continue;
         for (const PathGroup& g : path_.groups.all()) {
-            if (!g.key.seen() ||
-                !depth_steps_.next(g.key, *channels_[c].record).lights_only())
+            if (!g.key.seen() || !depth_steps_.next(g.key, *channels_[c].record).lights_only())
                 continue;
             out_->add_alpha(average(path_.passed), path_.passed);
             path_.passed = kBlack;

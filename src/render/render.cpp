@@ -338,8 +338,7 @@ void Renderer::learn_guide() {
     if (scene_.settings.guiding && !stopped() && !(guide_ && guide_->guides()))
         diagnostics_.warning(
             Code::GuidingUseless,
-            "guiding has learned nothing that makes the picture quieter: no ray is guided",
-            {},
+            "guiding has learned nothing that makes the picture quieter: no ray is guided", {},
             "render without it, or with more samples: it learns from an eighth of them");
 }
 
