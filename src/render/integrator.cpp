@@ -201,12 +201,13 @@ auto Integrator<Tracker>::pass(const Ray& ray, float t_surface) -> Passage {
     return travel(ray, t_surface);
 }
 
-/// A ray that may only meet lights, and that no area light is on the way of: it is enough to know whether it gets away.
-/// False also where surfaces and media on its way would have to be looked at.
+/// A ray that may only meet lights, and that no area light is on the way of: it is enough to know whether it gets away, if
+/// there are skies. False also where what is on its way would have to be looked at.
 template <class Tracker>
 bool Integrator<Tracker>::misses_area_lights(const Ray& ray) const {
-    if (scene_.rays_may_pass || scene_.shadows_by_mask || through_media() || media_.active())
-        return false;
+    const bool looks_at_surfaces =
+        !scene_.infinite_lights.empty() && (scene_.rays_may_pass || scene_.shadows_by_mask);
+    if (looks_at_surfaces || through_media() || media_.active()) return false;
     return !scene_.light_accel || !scene_.light_accel->occluded(ray, 0xffffffffU);
 }
 

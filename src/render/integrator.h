@@ -166,7 +166,7 @@ class Integrator {
     void note_mattes(float weight);
     void gather_channels(const Surface& surface);
     void add_probes();
-    [[nodiscard]] bool leads_on(const Channel& channel) const;
+    [[nodiscard]] Color reach(const Channel& channel) const;
     void choose_probabilities();
     void add_light_samples(const Surface& surface);
     /// Goes on straight or by a scatterer, whichever is drawn; false if the path ends.

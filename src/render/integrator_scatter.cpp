@@ -32,44 +32,34 @@ void widen(Footprint& footprint, float t, float pdf, int n_samples) {
 
 }  // namespace
 
-/// Whether any of the path's throughput may go on through the channel.
+/// Throughput that may use the channel.
 template <class Tracker>
-bool Integrator<Tracker>::leads_on(const Channel& channel) const {
-    if (culling_ == Culling::Lobes && !tracker_.goes_on(channel)) return false;
-    for (std::size_t g = 0; g < path_.groups.all().size(); ++g) {
-        const PathGroup& group = path_.groups[g];
-        if (!group.key.lights_only() && channel_allowed(group.key, channel) &&
-            !is_black(group.throughput * path_.groups.indirect(g)))
-            return true;
-    }
-    return false;
+Color Integrator<Tracker>::reach(const Channel& channel) const {
+    Color sum;
+    if (culling_ == Culling::Lobes && !tracker_.goes_on(channel)) return sum;
+    for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
+        if (!path_.groups[g].key.lights_only() && channel_allowed(path_.groups[g].key, channel))
+            sum += path_.groups[g].throughput * path_.groups.indirect(g);
+    return sum;
 }
 
 /// How likely each closure, or passing straight through, is drawn: by what it can carry on.
 template <class Tracker>
 void Integrator<Tracker>::choose_probabilities() {
+    for (std::size_t c = 0; c < n_channels_; ++c) {
+        mixture_[c] = is_enabled(channels_[c]) ? 0 : kNoRays;
+        reach_[c] = reach(channels_[c]);
+    }
     const std::size_t n = n_channels_ > 0 ? n_scatterers() : 0;
     if (n == 1 && is_black(closures_.transparency())) {
         // No choice: what the lobe returns need not be known.
-        mixture_[0] = is_enabled(channels_[0]) ? 0 : kNoRays;
-        probability_[0] = is_enabled(0) && leads_on(channels_[0]) ? 1 : 0;
+        probability_[0] = is_black(reach_[0]) || !is_enabled(0) ? 0 : 1;
         pass_probability_ = 0;
         return;
     }
-    // Throughput that may use each channel.
-    const std::span<Color> reach(reach_.data(), n_channels_);
-    std::ranges::fill(reach, kBlack);
-    for (std::size_t c = 0; c < n_channels_; ++c) {
-        mixture_[c] = is_enabled(channels_[c]) ? 0 : kNoRays;
-        if (culling_ == Culling::Lobes && !tracker_.goes_on(channels_[c])) continue;
-        for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
-            if (!path_.groups[g].key.lights_only() &&
-                channel_allowed(path_.groups[g].key, channels_[c]))
-                reach[c] += path_.groups[g].throughput * path_.groups.indirect(g);
-    }
     float total = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        carries_[i] = is_enabled(i) ? reach[channel_of_[i]] * albedo_of(i) : kBlack;
+        carries_[i] = is_enabled(i) ? reach_[channel_of_[i]] * albedo_of(i) : kBlack;
         probability_[i] = std::max(0.0F, luminance(carries_[i]));
         total += probability_[i];
     }
@@ -290,7 +280,7 @@ bool Integrator<Tracker>::survives_roulette() {
 
 // Explicitly, member by member: the class as a whole is instantiated in integrator.cpp.
 #define LIGHTSIEVE_SCATTER(Tracker)                                                             \
-    template bool Integrator<Tracker>::leads_on(const Channel&) const;                          \
+    template Color Integrator<Tracker>::reach(const Channel&) const;                            \
     template void Integrator<Tracker>::choose_probabilities();                                  \
     template std::optional<std::size_t> Integrator<Tracker>::draw(float, std::optional<GiKind>) \
         const;                                                                                  \

@@ -34,6 +34,7 @@ inline constexpr std::uint32_t kMaskShadowTransparent =
 /// source: Waechter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems ch. 6
 [[nodiscard]] inline Vec3f offset_ray_origin(Vec3f p, Vec3f n) {
     constexpr float kOrigin = 1.0F / 32, kFloatScale = 1.0F / 65536, kIntScale = 256;
+    // All coordinates at once: every ray that leaves a surface asks.
     using Float4 = float __attribute__((vector_size(16)));
     using Int4 = std::int32_t __attribute__((vector_size(16)));
     const Float4 from{p.x, p.y, p.z, 0}, along{n.x, n.y, n.z, 0};

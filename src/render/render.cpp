@@ -145,6 +145,7 @@ class Renderer {
     std::vector<FileClaim> claims_;  ///< on the files of all drivers
     std::optional<LiveView> viewer_;
     std::unique_ptr<const Guide> guide_;                        ///< null: none
+    const Guide* guide_in_use_ = nullptr;                       ///< null: no ray is guided
     std::uint64_t samples_learned_ = 0, samples_to_learn_ = 0;  ///< of the guide's training
     std::mutex output_mutex_, progress_mutex_, workers_mutex_;
     std::atomic<std::uint64_t> samples_resumed_ = 0;
@@ -250,7 +251,7 @@ Worker& Renderer::worker() {
     const std::lock_guard lock(workers_mutex_);
     if (idle_.empty()) {
         idle_.push_back(std::make_unique<Worker>(scene_));
-        if (guide_ && guide_->guides()) idle_.back()->integrator.set_guide(guide_.get());
+        idle_.back()->integrator.set_guide(guide_in_use_);
     }
     workers_.push_back(std::move(idle_.back()));
     idle_.pop_back();
@@ -335,7 +336,8 @@ void Renderer::learn_guide() {
     result_.training_samples = training.n_samples;
     for (std::size_t i = 0; i < training.rays.size(); ++i)
         result_.rays_by_kind[i] += training.rays[i];
-    if (scene_.settings.guiding && !stopped() && !(guide_ && guide_->guides()))
+    if (guide_ && guide_->guides()) guide_in_use_ = guide_.get();
+    if (scene_.settings.guiding && guide_in_use_ == nullptr && !stopped())
         diagnostics_.warning(
             Code::GuidingUseless,
             "guiding has learned nothing that makes the picture quieter: no ray is guided", {},

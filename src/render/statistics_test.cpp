@@ -59,18 +59,23 @@ TEST(Statistics, EveryKindOfRayIsOfItsKind) {
 }
 
 TEST(Statistics, RaysThatCanOnlyMissLampsAreNotTraced) {
-    const auto diffuse_rays = [](const std::string& light) {
+    const auto diffuse_rays = [](const std::string& more) {
         return rays(render(frame_text(16, 16, 2, from_above(1), " GI_diffuse_depth 0") +
-                           lambert("white", 0.8F) + floor("ground", 0, 2, "white") + light)
+                           lambert("white", 0.8F) + floor("ground", 0, 2, "white") + more)
                         .result(),
                     RayKind::Diffuse);
     };
     // The lamp fills a thirtieth of the hemisphere, the sky all of it.
-    const std::uint64_t to_lamp = diffuse_rays(square_light("key", 1.8F, 0.3F, "")),
+    const std::string lamp = square_light("key", 1.8F, 0.3F, "");
+    const std::uint64_t to_lamp = diffuse_rays(lamp),
                         to_sky = diffuse_rays(node("skydome_light", "sky", ""));
     EXPECT_GT(to_lamp, 0U);
     EXPECT_LT(to_lamp, to_sky / 8);
     EXPECT_GE(to_sky, 16U * 16U * 4U);
+    // Nor does it matter what else rays may pass on the way to no lamp.
+    const std::string pane = node("standard_surface", "pane", " opacity 0.5 0.5 0.5") +
+                             quad("aside", {3, 0, -1}, {3, 0, 1}, {3, 2, 1}, {3, 2, -1}, "pane");
+    EXPECT_LT(diffuse_rays(lamp + pane), to_sky / 8);
 }
 
 TEST(Statistics, ProgressKnowsTheNoiseOfWhatIsDone) {
