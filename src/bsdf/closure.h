@@ -42,8 +42,10 @@ struct Closure {
     std::uint8_t frame = 0;  ///< into the set's frames
     /// Specular lobes with the shader's `caustics` off are dead at vertices that a diffuse ray reached.
     bool caustics = true;
-    float indirect = 1;        ///< factor on indirect light
-    bool direct_light = true;  ///< false: lights do not reach it directly
+    float indirect = 1;         ///< factor on indirect light
+    bool direct_light = true;   ///< false: lights do not reach it directly
+    bool knows_albedo = false;  ///< the shader had worked it out
+    Color model_albedo{};       ///< if so: of the model, for the viewer's direction
 };
 
 struct Emission {
@@ -120,7 +122,10 @@ class ClosureSet {
         add(lobe, model, weight, 0, caustics);
     }
     /// The same with a frame made by add_frame.
-    void add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame, bool caustics);
+    ///
+    /// albedo  of the model for `local_wo(frame)`, if the shader knows it: it need not be worked out again; or null
+    void add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame, bool caustics,
+             const Color* albedo = nullptr);
     /// Registers a frame (turned to the side of the first one); returns its number.
     std::uint8_t add_frame(const Frame& frame);
     /// Adds subsurface scattering through lobe number `lobe` of the shader.

@@ -1,5 +1,7 @@
 #include "core/sobol.h"
 
+#include "core/float4.h"
+
 namespace lightsieve {
 namespace {
 
@@ -7,8 +9,6 @@ namespace {
 /// for a word and for four of them.
 using Word4 = std::uint32_t __attribute__((vector_size(16)));
 using Byte16 = std::uint8_t __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));
-using Float4 = float __attribute__((vector_size(16)));
 
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     x = __builtin_bswap32(x);

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/float4.h"
 #include "render/placement.h"
 #include "scene/simple_shape.h"
 
@@ -370,24 +371,20 @@ class Boxes {
                 const Float4 a = (f.lower[axis] - ray.origin[axis]) * inverse[axis],
                              b = (f.upper[axis] - ray.origin[axis]) * inverse[axis];
                 // Rays within a wall give nan: they pass beside what is in the box, which has room on all sides.
-                const Float4 first = a < b ? a : b, last = a < b ? b : a;
-                near = first > near ? first : near;
-                far = last < far ? last : far;
+                near = larger(smaller(a, b), near);
+                far = smaller(larger(b, a), far);
             }
-            const auto met = near <= far;
-            if ((met[0] | met[1] | met[2] | met[3]) != 0) return true;
+            if (any(near <= far)) return true;
         }
         return false;
     }
 
   private:
     static constexpr std::size_t kMost = 16;
-    using Float4 = float __attribute__((vector_size(16)));
     /// Four boxes; missing ones repeat the others.
     struct Four {
         Float4 lower[3], upper[3];
     };
-    static Float4 all(float v) { return Float4{v, v, v, v}; }
 
     void add(const Box3f& box) {
         constexpr float kRoom = 1e-4F;  // flat boxes get a thickness, and rounding room
@@ -411,9 +408,9 @@ class Boxes {
 /// Rays beyond kRayReach, or of something that is no number, meet nothing.
 bool can_be_traced(const Ray& ray) {
     const Vec3f o = ray.origin, d = ray.direction;
-    return std::abs(o.x) <= kRayReach && std::abs(o.y) <= kRayReach &&
-           std::abs(o.z) <= kRayReach && std::abs(d.x) <= kRayReach &&
-           std::abs(d.y) <= kRayReach && std::abs(d.z) <= kRayReach && ray.t_min <= ray.t_max;
+    const Float4 first{o.x, o.y, o.z, d.x}, second{d.y, d.z, 0, 0};
+    const Int4 within = (magnitude(first) <= kRayReach) & (magnitude(second) <= kRayReach);
+    return !any(~within) && ray.t_min <= ray.t_max;
 }
 
 RTCRay to_embree(const Ray& ray, std::uint32_t mask) {

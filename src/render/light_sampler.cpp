@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <utility>
 
@@ -34,21 +33,6 @@ constexpr std::size_t kBuckets = 12;
 constexpr double kPiDouble = std::numbers::pi;
 
 float sine(float cosine) { return safe_sqrt(1 - cosine * cosine); }
-
-/// Four floats that one instruction takes at once (an extension that GCC and Clang share).
-using Float4 = float __attribute__((vector_size(16)));
-
-Float4 load(const std::array<float, 4>& lane) {
-    Float4 out;
-    std::memcpy(&out, lane.data(), sizeof(out));
-    return out;
-}
-Float4 all(float v) { return Float4{v, v, v, v}; }
-Float4 larger(Float4 a, Float4 b) { return a > b ? a : b; }
-Float4 smaller(Float4 a, Float4 b) { return a < b ? a : b; }
-Float4 root(Float4 v) {
-    return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
-}
 
 /// cos(max(0, a - b)) for angles in [0, pi].
 Float4 cos_difference(Float4 sin_a, Float4 cos_a, Float4 sin_b, Float4 cos_b) {
@@ -337,8 +321,8 @@ LightSampler::LightSampler(std::span<const Light* const> lights,
 // brightness count the same where both reach; and each cosine is the mean of its bound and of its value at the
 // centre, which estimates large clusters better than the bound alone (it halves the variance on a ceiling of panels)
 // and is still 0 only where the bound is.
-void LightSampler::importance(const Bounds4& bounds, Vec3f position, Vec3f normal,
-                              float* out) noexcept {
+auto LightSampler::importance(const Bounds4& bounds, Vec3f position, Vec3f normal) noexcept
+    -> Float4 {
     const Float4 x = position.x - load(bounds.center_x), y = position.y - load(bounds.center_y),
                  z = position.z - load(bounds.center_z);
     const Float4 radius = load(bounds.radius), intensity = load(bounds.intensity);
@@ -375,24 +359,27 @@ void LightSampler::importance(const Bounds4& bounds, Vec3f position, Vec3f norma
     // Within the bounding sphere nothing is known about directions.
     const Float4 inside = intensity / radius_squared;
     const Float4 outside = intensity * factor / larger(distance_squared, radius_squared);
-    const Float4 result =
-        smaller(distance_squared <= radius_squared ? inside : outside, all(kMaxImportance));
-    std::memcpy(out, &result, sizeof(result));
+    return smaller(distance_squared <= radius_squared ? inside : outside, all(kMaxImportance));
 }
 
 LightSampler::Weights LightSampler::weigh(const Node& node, Vec3f position,
                                           Vec3f normal) const noexcept {
     Weights out;
-    for (std::size_t i = 0; i < node.n_branches; i += kLanes)
-        importance(bounds_[node.first_bounds + i / kLanes], position, normal, out.of.data() + i);
-    float sum = 0;
-    for (std::size_t i = 0; i < node.n_branches; ++i)
-        sum += out.of[i];
+    const std::span<const Bounds4> bounds(bounds_.data() + node.first_bounds,
+                                          (node.n_branches + kLanes - 1) / kLanes);
+    std::array<Float4, kBranches / kLanes> weights;
+    Float4 sum{};
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+        sum += weights[i] = importance(bounds[i], position, normal);
     // What can contribute stays well within the resolution of a random float.
-    for (std::size_t i = 0; i < node.n_branches; ++i) {
-        if (out.of[i] > 0) out.of[i] = std::max(out.of[i], sum * kMinBranch);
-        out.sum += out.of[i];
+    const Float4 least = all(sum_of(sum) * kMinBranch);
+    sum = Float4{};
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        const Float4 of = weights[i] > 0 ? larger(weights[i], least) : all(0);
+        store(of, out.of.data() + i * kLanes);
+        sum += of;
     }
+    out.sum = sum_of(sum);
     return out;
 }
 
@@ -438,19 +425,19 @@ LightPick LightSampler::pick_finite(Vec3f position, Vec3f normal, Weights weight
     // The parent's bound may have been too crude: then no branch can send anything.
     while (weights.sum > 0) {
         const Node& node = nodes_[index];
+        const float target = so_far.u * weights.sum;
         std::size_t chosen = 0;
-        float before = 0, low = 0, p = 0;
+        float before = 0, low = 0;
         for (std::size_t i = 0; i < node.n_branches; ++i) {
             if (!(weights.of[i] > 0)) continue;
             // The last branch that can contribute also takes what rounding leaves over.
             chosen = i;
             low = before;
-            p = weights.of[i] / weights.sum;
-            before += p;
-            if (so_far.u < before) break;
+            before += weights.of[i];
+            if (target < before) break;
         }
-        so_far.probability *= p;
-        so_far.u = stretch(so_far.u, low, p);
+        so_far.probability *= weights.of[chosen] / weights.sum;
+        so_far.u = stretch(target, low, weights.of[chosen]);
         const std::uint32_t below = node.branches[chosen];
         if ((below & kLeaf) != 0) {
             so_far.light = below & ~kLeaf;

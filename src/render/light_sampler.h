@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "core/float4.h"
 #include "core/vec.h"
 #include "scene/light.h"
 
@@ -107,8 +108,7 @@ class LightSampler {
     };
     struct Builder;
 
-    static void importance(const Bounds4& bounds, Vec3f position, Vec3f normal,
-                           float* out) noexcept;
+    static Float4 importance(const Bounds4& bounds, Vec3f position, Vec3f normal) noexcept;
     static float importance(const Infinite& light, Vec3f normal) noexcept;
     [[nodiscard]] Weights weigh(const Node& node, Vec3f position, Vec3f normal) const noexcept;
     [[nodiscard]] Weights weigh_root(Vec3f position, Vec3f normal) const noexcept;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/float4.h"
 #include "core/vec.h"
 
 namespace lightsieve {
@@ -35,8 +36,6 @@ inline constexpr std::uint32_t kMaskShadowTransparent =
 [[nodiscard]] inline Vec3f offset_ray_origin(Vec3f p, Vec3f n) {
     constexpr float kOrigin = 1.0F / 32, kFloatScale = 1.0F / 65536, kIntScale = 256;
     // All coordinates at once: every ray that leaves a surface asks.
-    using Float4 = float __attribute__((vector_size(16)));
-    using Int4 = std::int32_t __attribute__((vector_size(16)));
     const Float4 from{p.x, p.y, p.z, 0}, along{n.x, n.y, n.z, 0};
     const Int4 steps = __builtin_convertvector(along * kIntScale, Int4);
     const Int4 moved = __builtin_bit_cast(Int4, from) + (from < 0 ? -steps : steps);

@@ -32,13 +32,13 @@ struct Dielectric : MicrofacetCommon {
         const BodyIndex index(ior, 0, at);
         const float eta = transmits(scatter_mode) ? index.refracting() : ior;
         if (transmits(scatter_mode)) out.set_interior({{}, index.inside()});
-        const LobeModel reflection = thinfilm_thickness > 0 && !inside
-                                         ? LobeModel(filmed(Color::grey(ior), kBlack))
-                                         : LobeModel(DielectricReflect(alpha(), eta));
-        if (reflects(scatter_mode)) out.add(0, reflection, factor, own, caustics);
+        const LayerLobe reflection(thinfilm_thickness > 0 && !inside
+                                       ? LobeModel(filmed(Color::grey(ior), kBlack))
+                                       : LobeModel(DielectricReflect(alpha(), eta)),
+                                   {own, out.local_wo(own)});
+        if (reflects(scatter_mode)) reflection.add_to(out, 0, factor, caustics);
         if (!transmits(scatter_mode)) return;
-        const Color left = complement(kWhite, reflection, out.local_wo(own));
-        out.add(1, DielectricTransmit(alpha(), eta), factor * left, own, caustics);
+        out.add(1, DielectricTransmit(alpha(), eta), factor * reflection.leaves(), own, caustics);
     }
 };
 

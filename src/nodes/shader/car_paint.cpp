@@ -76,11 +76,11 @@ struct CellRandom {
 void CarPaint::add_coat(const ShadePoint& at, ClosureSet& out, Color& left) const {
     const float weight = unit(coat);
     if (!(weight > 0)) return;
-    const OrientedFrame frame = oriented(at, out, coat_normal);
-    const LobeModel model =
-        dielectric_reflection(GgxAlpha::from_roughness(unit(coat_roughness)), coat_IOR);
-    out.add(kCoat, model, left * weight, frame.index, true);
-    left *= lerp(kWhite, unit(coat_color) * complement(kWhite, model, frame.wo), weight);
+    const LayerLobe varnish(
+        dielectric_reflection(GgxAlpha::from_roughness(unit(coat_roughness)), coat_IOR),
+        oriented(at, out, coat_normal));
+    varnish.add_to(out, kCoat, left * weight, true);
+    left *= lerp(kWhite, unit(coat_color) * varnish.leaves(), weight);
 }
 
 void CarPaint::add_flakes(const ShadePoint& at, ClosureSet& out, Color& left) const {
@@ -101,11 +101,12 @@ void CarPaint::add_flakes(const ShadePoint& at, ClosureSet& out, Color& left) co
         const Vec3f normal = normalize(
             at.normal + (around.x * std::cos(angle) + around.y * std::sin(angle)) * lean);
         const OrientedFrame frame = oriented(at, out, normal);
-        const LobeModel model =
-            dielectric_reflection(GgxAlpha::from_roughness(unit(flake_roughness)), flake_IOR);
+        const LayerLobe flake(
+            dielectric_reflection(GgxAlpha::from_roughness(unit(flake_roughness)), flake_IOR),
+            frame);
         const Color tint = unit(flake_color) * lerp(unit(flake_flip_flop), kWhite, frame.wo.z);
-        out.add(kFlakes, model, left * tint, frame.index, true);
-        left *= complement(kWhite, model, frame.wo);
+        flake.add_to(out, kFlakes, left * tint, true);
+        left *= flake.leaves();
     }
 }
 
@@ -113,12 +114,14 @@ void CarPaint::eval(const ShadePoint& at, ClosureSet& out) const {
     Color left = kWhite;
     add_coat(at, out, left);
     if (const Color weight = unit(specular) * unit(specular_color); !is_black(weight)) {
-        const LobeModel model = dielectric_reflection(
-            GgxAlpha::from_roughness(unit(specular_roughness)), specular_IOR);
-        const Vec3f wo = out.local_wo(0);
-        const Color tinted = weight * lerp(unit(specular_flip_flop), kWhite, wo.z);
-        out.add(kSpecular, model, left * tinted, 0, true);
-        left *= complement(weight, model, wo);
+        const OrientedFrame frame{0, out.local_wo(0)};
+        const LayerLobe gloss(
+            dielectric_reflection(GgxAlpha::from_roughness(unit(specular_roughness)),
+                                  specular_IOR),
+            frame);
+        const Color tinted = weight * lerp(unit(specular_flip_flop), kWhite, frame.wo.z);
+        gloss.add_to(out, kSpecular, left * tinted, true);
+        left *= gloss.leaves(weight);
     }
     left *= unit(transmission_color);
     add_flakes(at, out, left);

@@ -79,15 +79,27 @@ inline void add_below_surface(ClosureSet& out, int lobe, Color color, Color radi
         out.add(lobe, DiffuseReflect(color, roughness), weight, frame, true);
 }
 
-/// Directional albedo of a lobe for a local direction.
-[[nodiscard]] inline Color albedo_of(const LobeModel& model, Vec3f wo) {
-    return std::visit([&](const auto& lobe) { return lobe.albedo(wo); }, model);
-}
+/// A lobe that dims the layers below by what it reflects. Its albedo is worked out once, for them and for the renderer.
+class LayerLobe {
+  public:
+    LayerLobe(const LobeModel& model, const OrientedFrame& frame)
+        : model_(model),
+          frame_(frame.index),
+          albedo_(visit_lobe([&](const auto& lobe) { return lobe.albedo(frame.wo); }, model)) {}
+    /// As ClosureSet::add.
+    void add_to(ClosureSet& out, int lobe, Color weight, bool caustics) const {
+        out.add(lobe, model_, weight, frame_, caustics, &albedo_);
+    }
+    /// 1 - weight * E, what the layer leaves to those below.
+    [[nodiscard]] Color leaves(Color weight = kWhite) const {
+        return unit(kWhite - weight * albedo_);
+    }
 
-/// 1 - weight * E, what a layer leaves to those below.
-[[nodiscard]] inline Color complement(Color weight, const LobeModel& model, Vec3f wo) {
-    return unit(kWhite - weight * albedo_of(model, wo));
-}
+  private:
+    LobeModel model_;
+    std::uint8_t frame_;
+    Color albedo_;
+};
 
 /// An interior that leaves `color` of straight light after `depth`, and scatters with the coefficient `scattering`. Where more
 /// would scatter than is lost in all, absorption grows by the same amount in every channel until none is negative.

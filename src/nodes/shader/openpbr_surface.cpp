@@ -100,10 +100,9 @@ class Layering {
     void add_fuzz() {
         const float weight = unit(s_.fuzz_weight);
         if (!(weight > 0) || inside_) return;
-        const LobeModel model = SheenReflect(s_.fuzz_roughness);
-        out_.add(kFuzz, model, left_ * (weight * positive(s_.fuzz_color)), base_.index,
-                 s_.caustics);
-        left_ *= complement(Color::grey(weight), model, base_.wo);
+        const LayerLobe fuzz(SheenReflect(s_.fuzz_roughness), base_);
+        fuzz.add_to(out_, kFuzz, left_ * (weight * positive(s_.fuzz_color)), s_.caustics);
+        left_ *= fuzz.leaves(Color::grey(weight));
     }
 
     /// Section 3.7: reflection, tint and darkening of what is below.
@@ -114,10 +113,12 @@ class Layering {
             const OrientedFrame frame =
                 oriented(at_, out_, s_.geometry_coat_normal, s_.geometry_coat_tangent,
                          s_.coat_roughness_anisotropy);
-            const LobeModel model = dielectric_reflection(
-                stretched(s_.coat_roughness, s_.coat_roughness_anisotropy), s_.coat_ior);
-            through *= complement(kWhite, model, frame.wo);
-            out_.add(kCoat, model, left_ * coat_, frame.index, s_.caustics);
+            const LayerLobe coat(
+                dielectric_reflection(stretched(s_.coat_roughness, s_.coat_roughness_anisotropy),
+                                      s_.coat_ior),
+                frame);
+            through *= coat.leaves();
+            coat.add_to(out_, kCoat, left_ * coat_, s_.caustics);
         }
         left_ *= lerp(kWhite, through, coat_);
     }
@@ -153,17 +154,19 @@ class Layering {
         if (is_black(left_)) return;
         const Color tint = positive(s_.specular_color);
         const bool body = transmission_ > 0 && !s_.geometry_thin_walled;
-        const LobeModel model =
-            dielectric_reflection(specular_alpha(), body ? index_.reflecting() : modulated_ior());
         const OrientedFrame frame = specular_frame();
+        const LayerLobe gloss(
+            dielectric_reflection(specular_alpha(), body ? index_.reflecting() : modulated_ior()),
+            frame);
         if (!inside_ || s_.internal_reflections)
-            out_.add(kSpecular, model, left_ * tint * (1 - film()), frame.index, s_.caustics);
-        Color through = complement(kWhite, model, frame.wo);
+            gloss.add_to(out_, kSpecular, left_ * tint * (1 - film()), s_.caustics);
+        Color through = gloss.leaves();
         if (film() > 0) {
-            const LobeModel filmed = FilmReflect(specular_alpha(), film_nm(), s_.thin_film_ior,
-                                                 Color::grey(modulated_ior()), kBlack);
-            out_.add(kSpecular, filmed, left_ * tint * film(), frame.index, s_.caustics);
-            through = lerp(through, complement(kWhite, filmed, frame.wo), film());
+            const LayerLobe filmed(FilmReflect(specular_alpha(), film_nm(), s_.thin_film_ior,
+                                               Color::grey(modulated_ior()), kBlack),
+                                   frame);
+            filmed.add_to(out_, kSpecular, left_ * tint * film(), s_.caustics);
+            through = lerp(through, filmed.leaves(), film());
         }
         left_ *= through;
     }

@@ -50,11 +50,13 @@ void Skin::eval(const ShadePoint& at, ClosureSet& out) const {
     const auto reflect = [&](int lobe, float weight, Color tint, float roughness, float ior) {
         if (!(weight > 0)) return;
         const float facing = square((ior - 1) / (ior + 1));
-        const SchlickReflect model(GgxAlpha::from_roughness(unit(roughness)),
-                                   Color::grey(std::isfinite(facing) ? facing : 1), kWhite);
-        out.add(lobe, model, visible * positive(tint) * (below * weight), frame.index,
-                specular_in_secondary_rays);
-        below *= unit(1 - weight * albedo_of(model, frame.wo).g);
+        const LayerLobe gloss(
+            SchlickReflect(GgxAlpha::from_roughness(unit(roughness)),
+                           Color::grey(std::isfinite(facing) ? facing : 1), kWhite),
+            frame);
+        gloss.add_to(out, lobe, visible * positive(tint) * (below * weight),
+                     specular_in_secondary_rays);
+        below *= gloss.leaves(Color::grey(weight)).g;
     };
     reflect(kSheen, sheen_weight, sheen_color, sheen_roughness, sheen_ior);
     reflect(kSpecular, specular_weight, specular_color, specular_roughness, specular_ior);

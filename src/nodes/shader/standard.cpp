@@ -78,10 +78,10 @@ void Standard::eval(const ShadePoint& at, ClosureSet& out) const {
                              float normal_reflectance, bool caustics) {
         const Color factor = positive(weight) * positive(tint);
         if (is_black(factor) || (inside && !enable_internal_reflections)) return;
-        const SchlickReflect model(alpha, Color::grey(facing(fresnel, normal_reflectance)),
-                                   kWhite);
-        out.add(lobe, model, visible * factor, base.index, caustics);
-        if (fresnel && Fresnel_affect_diff) diffuse *= complement(factor, model, base.wo);
+        const LayerLobe gloss(
+            SchlickReflect(alpha, Color::grey(facing(fresnel, normal_reflectance)), kWhite), base);
+        gloss.add_to(out, lobe, visible * factor, caustics);
+        if (fresnel && Fresnel_affect_diff) diffuse *= gloss.leaves(factor);
     };
     reflect(kSpecular, Ks, Ks_color, GgxAlpha::from_roughness(unit(specular_roughness)),
             specular_Fresnel, Ksn, enable_glossy_caustics);

@@ -104,11 +104,13 @@ class Layering {
         if (!inside_) {
             const OrientedFrame frame = oriented(at_, out_, s_.coat_normal, s_.tangent,
                                                  s_.coat_anisotropy, s_.coat_rotation);
-            const LobeModel model = dielectric_reflection(
-                GgxAlpha::from_roughness(unit(s_.coat_roughness), s_.coat_anisotropy),
-                s_.coat_IOR);
-            through *= complement(kWhite, model, frame.wo);
-            out_.add(kCoat, model, left_ * coat_, frame.index, s_.caustics);
+            const LayerLobe coat(
+                dielectric_reflection(
+                    GgxAlpha::from_roughness(unit(s_.coat_roughness), s_.coat_anisotropy),
+                    s_.coat_IOR),
+                frame);
+            through *= coat.leaves();
+            coat.add_to(out_, kCoat, left_ * coat_, s_.caustics);
         }
         left_ *= lerp(kWhite, through, coat_);
     }
@@ -140,13 +142,13 @@ class Layering {
         const Color weight = positive(s_.specular) * positive(s_.specular_color);
         if (is_black(left_) || (is_black(weight) && !is_sheet())) return;
         const GgxAlpha alpha = specular_alpha(roughness(0));
-        const LobeModel model = has_film() ? filmed(alpha, Color::grey(s_.specular_IOR), kBlack)
-                                           : dielectric_reflection(alpha, reflecting_ior());
-        const OrientedFrame frame = specular_frame();
+        const LayerLobe gloss(has_film() ? filmed(alpha, Color::grey(s_.specular_IOR), kBlack)
+                                         : dielectric_reflection(alpha, reflecting_ior()),
+                              specular_frame());
         if (!inside_ || s_.internal_reflections)
-            out_.add(kSpecular, model, left_ * weight, frame.index, s_.caustics);
-        if (is_sheet()) through_sheet_ = left_ * complement(kWhite, model, frame.wo);
-        left_ *= complement(weight, model, frame.wo);
+            gloss.add_to(out_, kSpecular, left_ * weight, s_.caustics);
+        if (is_sheet()) through_sheet_ = left_ * gloss.leaves();
+        left_ *= gloss.leaves(weight);
     }
 
     /// transmission * transmission_color * spec_btdf + (1 - transmission) * ...
@@ -170,10 +172,9 @@ class Layering {
     void add_sheen() {
         const float sheen = unit(s_.sheen);
         if (!(sheen > 0) || is_black(left_)) return;
-        const LobeModel model = SheenReflect(s_.sheen_roughness);
-        out_.add(kSheen, model, left_ * (sheen * positive(s_.sheen_color)), base_.index,
-                 s_.caustics);
-        left_ *= complement(Color::grey(sheen), model, base_.wo);
+        const LayerLobe fibres(SheenReflect(s_.sheen_roughness), base_);
+        fibres.add_to(out_, kSheen, left_ * (sheen * positive(s_.sheen_color)), s_.caustics);
+        left_ *= fibres.leaves(Color::grey(sheen));
     }
 
     /// (1 - subsurface) * base * base_color * diffuse_brdf + subsurface * subsurface_mix

@@ -233,6 +233,27 @@ TEST(SurfaceProperties, NoLightFromNothing) {
     }
 }
 
+TEST(SurfaceProperties, LayersKnowTheAlbedoOfTheirOwnLobe) {
+    int n_known = 0;
+    for (const NodeType& type : scattering_types()) {
+        Random random(17);
+        for (int k = 0; k <= 20; ++k) {
+            TestNode node(type);
+            if (k > 0) draw_all(node, random);
+            const Shaded s(node, {0.4F, k % 3 != 0, k % 2 != 0, false});
+            for (const Closure& c : s.set.closures()) {
+                if (!c.knows_albedo) continue;
+                ++n_known;
+                const Vec3f wo = s.set.local_wo(c.frame);
+                EXPECT_EQ(c.model_albedo,
+                          std::visit([&](const auto& m) { return m.albedo(wo); }, c.model))
+                    << type.name.str() << " set " << k;
+            }
+        }
+    }
+    EXPECT_GT(n_known, 100);
+}
+
 TEST(SurfaceProperties, LobesReturnWhatTheySample) {
     for (const NodeType& type : scattering_types()) {
         Random random(13);

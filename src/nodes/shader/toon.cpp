@@ -76,11 +76,12 @@ struct Toon : ToonEdges {
 void Toon::add_specular(const ShadePoint& at, ClosureSet& out, float eta, Color& left) const {
     const Color weight = positive(specular) * positive(specular_color);
     if (is_black(weight)) return;
-    const OrientedFrame frame = specular_frame(at, out, specular_anisotropy, specular_rotation);
-    const LobeModel model = dielectric_reflection(
-        GgxAlpha::from_roughness(unit(specular_roughness), specular_anisotropy), eta);
-    out.add(kSpecular, model, weight, frame.index, false);
-    if (energy_conserving) left *= complement(weight, model, frame.wo);
+    const LayerLobe gloss(
+        dielectric_reflection(
+            GgxAlpha::from_roughness(unit(specular_roughness), specular_anisotropy), eta),
+        specular_frame(at, out, specular_anisotropy, specular_rotation));
+    gloss.add_to(out, kSpecular, weight, false);
+    if (energy_conserving) left *= gloss.leaves(weight);
 }
 
 void Toon::add_transmission(const ShadePoint& at, ClosureSet& out, float eta, Color& left) const {
@@ -108,9 +109,9 @@ void Toon::eval(const ShadePoint& at, ClosureSet& out) const {
     const OrientedFrame frame =
         oriented(at, out, bump_mode == BumpMode::Specular ? Vec3f{} : normal);
     if (const float weight = unit(sheen); weight > 0) {
-        const LobeModel model = SheenReflect(sheen_roughness);
-        out.add(kSheen, model, left * (weight * positive(sheen_color)), frame.index, true);
-        if (energy_conserving) left *= complement(Color::grey(weight), model, frame.wo);
+        const LayerLobe fibres(SheenReflect(sheen_roughness), frame);
+        fibres.add_to(out, kSheen, left * (weight * positive(sheen_color)), true);
+        if (energy_conserving) left *= fibres.leaves(Color::grey(weight));
     }
     out.add(kDiffuse, DiffuseReflect(positive(base) * positive(base_color), 0), left, frame.index,
             true);
