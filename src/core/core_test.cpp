@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/diagnostics.h"
+#include "core/float4.h"
 #include "core/matrix.h"
 #include "core/parallel.h"
 #include "core/sampling.h"
@@ -109,6 +110,32 @@ TEST(Sampling, DiscIsTheMapOfShirleyAndChiu) {
             EXPECT_NEAR(d.x, r * std::cos(angle), 1.2e-7);
             EXPECT_NEAR(d.y, r * std::sin(angle), 1.2e-7);
         }
+}
+
+TEST(Float4, LanesAreWhatFloatsWouldBe) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    const Float4 a{1, kNan, -0.0F, 9}, b{2, 5, 3, kNan};
+    const Float4 most = larger(a, b), least = smaller(a, b), roots = root(all(2)),
+                 sizes = magnitude(Float4{-1, -0.0F, 2, -kInfinity});
+    for (int i = 0; i < 4; ++i) {
+        const float larger_one = a[i] > b[i] ? a[i] : b[i],
+                    smaller_one = a[i] < b[i] ? a[i] : b[i];
+        EXPECT_TRUE(most[i] == larger_one || (std::isnan(most[i]) && std::isnan(larger_one))) << i;
+        EXPECT_TRUE(least[i] == smaller_one || (std::isnan(least[i]) && std::isnan(smaller_one)))
+            << i;
+        EXPECT_EQ(roots[i], std::sqrt(2.0F));
+    }
+    EXPECT_EQ(sizes[0], 1);
+    EXPECT_FALSE(std::signbit(sizes[1]));
+    EXPECT_EQ(sizes[3], kInfinity);
+    // Rounded pairs first.
+    EXPECT_EQ(sum_of(Float4{0x1p24F, 1, -0x1p24F, 1}), (0x1p24F + 1) + (-0x1p24F + 1));
+    for (int i = 0; i < 4; ++i) {
+        Float4 one{};
+        one[i] = 1;
+        EXPECT_TRUE(any(one > 0)) << i;
+    }
+    EXPECT_FALSE(any(all(kNan) > 0));
 }
 
 TEST(Matrix, RowVectorsAndInverse) {

@@ -178,11 +178,13 @@ void Compiler::add_light(const NodeInstance& node, std::unique_ptr<Light> made,
                          !is_black(light.common.shadow_color);
     light.n_samples = std::max(1, squared_samples(light.common.samples));
     light.n_volume_samples = std::max(1, squared_samples(light.common.volume_samples));
-    scene_->lights_can_be_met |=
-        !light.light->infinite() || !light.light->sample({}, {0.5F, 0.5F}).delta;
+    const bool infinite = light.light->infinite();
+    const bool can_be_met = infinite ? !light.light->sample({}, {0.5F, 0.5F}).delta
+                                     : light.light->geometry() != nullptr;
+    scene_->lights_can_be_met |= can_be_met;
     const auto index = static_cast<std::uint32_t>(scene_->lights.size());
     lights_of_node_[&node].push_back(index);
-    if (light.light->infinite()) scene_->infinite_lights.push_back(index);
+    if (infinite && can_be_met) scene_->infinite_lights.push_back(index);
     scene_->lights.push_back(std::move(light));
 }
 

@@ -636,8 +636,7 @@ void Integrator<Tracker>::add_probes() {
     tracker_.add_scattered(
         std::span(channels_.data(), n_channels_), {scene_.probe, scene_.probe_event},
         [&](std::size_t g, std::size_t c) {
-            const bool none = path_.groups[g].key.lights_only() ||
-                              !channel_allowed(path_.groups[g].key, channels_[c]) ||
+            const bool none = !may_scatter(path_.groups[g].key, channels_[c]) ||
                               channels_[c].record->makes_no_event;
             return none ? kBlack : albedo[c] * path_.groups.indirect(g);
         },

@@ -323,8 +323,7 @@ class Integrator {
                                               std::uint32_t light);
     /// weights  of the light sample, by channel
     [[nodiscard]] float low_light_survival(std::span<const Color> by_channel,
-                                           std::span<const float> weights, const SceneLight& light,
-                                           Color incident) const;
+                                           std::span<const float> weights, Color incident) const;
     /// Scatterers of one mixture share their rays: each ray carries what all of them scatter into its direction. Where the
     /// path splits there is one for each kind of rays, elsewhere one for all. The last is of those that send no rays.
     static constexpr std::uint8_t kNoRays = kGiKinds;
@@ -337,6 +336,8 @@ class Integrator {
     [[nodiscard]] float evaluate(const Surface& surface, std::size_t drawn,
                                  const LobeSample& sample, std::span<Color> by_channel) const;
     [[nodiscard]] float light_factor(const LightCommon& light, RayType type, int n_scatter) const;
+    [[nodiscard]] float direct_light_factor(const LightCommon& light,
+                                            const Channel& channel) const;
     [[nodiscard]] float clamp_factor(Color total, int n_scatter) const;
     [[nodiscard]] float random(std::uint32_t stream) const {
         return path_.sampler.random(hash_combine(path_.segment, stream));

@@ -76,6 +76,8 @@ void Integrator<Tracker>::ask_light(const Surface& surface, std::uint32_t index,
     if (!(sample.pdf > 0) || is_black(sample.radiance)) return;
     const std::span<Color> value = cleared_values();
     const Densities pdf_rays = evaluate(surface, sample.wi, value);
+    for (std::size_t c = 0; c < n_channels_; ++c)
+        value[c] *= direct_light_factor(light.common, channels_[c]);
     if (std::all_of(value.begin(), value.end(), is_black)) return;
 
     // Without a way to meet the light by a ray the light sample stands alone.
@@ -94,7 +96,7 @@ void Integrator<Tracker>::ask_light(const Surface& surface, std::uint32_t index,
                          : part * power_heuristic(pdf_light, pdf_rays[mixture_[c]]);
     // What the sample stands for, be it one of several of its light or picked among many lights.
     const Color stands_for = sample.radiance * (1 / (sample.pdf * std::min(samples, 1.0F)));
-    const float kept = low_light_survival(value, weights, light, stands_for);
+    const float kept = low_light_survival(value, weights, stands_for);
     if (kept < 1 && coin >= kept) return;
     const Visibility visible = visibility(surface, index, sample);
     if (is_black(visible.tinted)) return;
@@ -104,37 +106,37 @@ void Integrator<Tracker>::ask_light(const Surface& surface, std::uint32_t index,
     const Color straight = arriving * visible.straight,
                 tinted = arriving * (visible.tinted - visible.straight);
     deposit_scattered_light(light, [&](std::size_t g, std::size_t c) {
-        const GroupKey& key = path_.groups[g].key;
-        if (key.lights_only() || !channel_allowed(key, channels_[c]) || !channels_[c].direct_light)
-            return kBlack;
-        const LobeRecord& record = *channels_[c].record;
+        if (!may_scatter(path_.groups[g].key, channels_[c])) return kBlack;
         // Rays that volumes scatter may be refracted, as specular ones: their twins exist.
         Color incident = straight * weights[c];
-        if (record.lobe == EventLobe::Diffuse) incident += tinted;
-        return value[c] * incident *
-               light_factor(light.common, ray_type_of(record.kind, record.lobe, record.subsurface),
-                            path_.n_scatter + 1);
+        if (channels_[c].record->lobe == EventLobe::Diffuse) incident += tinted;
+        return value[c] * incident;
     });
+}
+
+/// Factor on light that the channel scatters straight from the light.
+template <class Tracker>
+float Integrator<Tracker>::direct_light_factor(const LightCommon& light,
+                                               const Channel& channel) const {
+    const LobeRecord& record = *channel.record;
+    return channel.direct_light
+               ? light_factor(light, ray_type_of(record.kind, record.lobe, record.subsurface),
+                              path_.n_scatter + 1)
+               : 0;
 }
 
 /// low_light_threshold: how likely a light sample that brings less than the threshold is worth its shadow ray.
 template <class Tracker>
 float Integrator<Tracker>::low_light_survival(std::span<const Color> by_channel,
                                               std::span<const float> weights,
-                                              const SceneLight& light, Color incident) const {
+                                              Color incident) const {
     const float threshold = scene_.settings.low_light_threshold;
     if (!(threshold > 0)) return 1;
     Color brought;
     for (const PathGroup& group : path_.groups.all())
-        for (std::size_t c = 0; c < n_channels_; ++c) {
-            if (group.key.lights_only() || !channel_allowed(group.key, channels_[c]) ||
-                !channels_[c].direct_light)
-                continue;
-            const LobeRecord& record = *channels_[c].record;
-            const RayType type = ray_type_of(record.kind, record.lobe, record.subsurface);
-            brought += group.throughput * by_channel[c] * incident *
-                       (weights[c] * light_factor(light.common, type, path_.n_scatter + 1));
-        }
+        for (std::size_t c = 0; c < n_channels_; ++c)
+            if (may_scatter(group.key, channels_[c]))
+                brought += group.throughput * by_channel[c] * incident * weights[c];
     const float brightest = max_component(brought);
     return brightest < threshold ? std::max(brightest / threshold, kLeastSurvival) : 1;
 }
@@ -254,8 +256,10 @@ void Integrator<Tracker>::add_light_at_exit(const WalkExit& exit) {
     template void Integrator<Tracker>::add_light_samples(const Surface&);                        \
     template void Integrator<Tracker>::ask_light(const Surface&, std::uint32_t, float, Vec2f,    \
                                                  float);                                         \
-    template float Integrator<Tracker>::low_light_survival(                                      \
-        std::span<const Color>, std::span<const float>, const SceneLight&, Color) const;         \
+    template float Integrator<Tracker>::low_light_survival(std::span<const Color>,               \
+                                                           std::span<const float>, Color) const; \
+    template float Integrator<Tracker>::direct_light_factor(const LightCommon&, const Channel&)  \
+        const;                                                                                   \
     template auto Integrator<Tracker>::visibility(const Surface&, std::uint32_t,                 \
                                                   const LightSample&) -> Visibility;             \
     template auto Integrator<Tracker>::visibility_along(Ray, const SceneObject*, std::uint32_t)  \

@@ -38,7 +38,7 @@ Color Integrator<Tracker>::reach(const Channel& channel) const {
     Color sum;
     if (culling_ == Culling::Lobes && !tracker_.goes_on(channel)) return sum;
     for (std::size_t g = 0; g < path_.groups.all().size(); ++g)
-        if (!path_.groups[g].key.lights_only() && channel_allowed(path_.groups[g].key, channel))
+        if (may_scatter(path_.groups[g].key, channel))
             sum += path_.groups[g].throughput * path_.groups.indirect(g);
     return sum;
 }
@@ -127,9 +127,11 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
             all += std::exchange(factor, Color{});
         factors[channel_of_[drawn]] = all;
     }
-    const Color wavelength = color_of_wavelength(surface, sample.wi);
-    for (Color& factor : factors)
-        factor *= wavelength;
+    if (closures_.disperses()) {
+        const Color wavelength = color_of_wavelength(surface, sample.wi);
+        for (Color& factor : factors)
+            factor *= wavelength;
+    }
     const LightPlan plan = light_plan(*surface.object->lights, surface.in_medium);
     const float carried = recorder_ != nullptr ? luminance(path_.groups.total()) : 0;
     if (!advance(factors, drawn) || !is_worth_a_ray()) return false;

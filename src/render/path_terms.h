@@ -216,6 +216,11 @@ struct PathGroup {
     return channel.caustics || channel.record->lobe != EventLobe::Specular || !diffuse_ray;
 }
 
+/// True if a share that arrived with this key goes on through this channel at all.
+[[nodiscard]] inline bool may_scatter(const GroupKey& key, const Channel& channel) {
+    return !key.lights_only() && channel_allowed(key, channel);
+}
+
 /// The groups of a path.
 ///
 /// A shader may scale indirect light alone. Whether light is indirect is known only when the next ray has met something:
@@ -287,8 +292,8 @@ class PathGroups {
                 step.to[g][c] = kNone;
                 const float scale = waiting[groups_[g].key.indirect()].indirect;
                 step.scale[g][c] = scale;
-                if (groups_[g].key.lights_only() || is_black(factors[c]) || scale == 0 ||
-                    !channel_allowed(groups_[g].key, channels[c]))
+                if (is_black(factors[c]) || scale == 0 ||
+                    !may_scatter(groups_[g].key, channels[c]))
                     continue;
                 GroupKey key = steps.next(groups_[g].key, *channels[c].record);
                 key.set_indirect(factor_of[c]);

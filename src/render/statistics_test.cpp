@@ -72,6 +72,12 @@ TEST(Statistics, RaysThatCanOnlyMissLampsAreNotTraced) {
     EXPECT_GT(to_lamp, 0U);
     EXPECT_LT(to_lamp, to_sky / 8);
     EXPECT_GE(to_sky, 16U * 16U * 4U);
+    // Lights without extent are met by none.
+    const std::string sun = node("distant_light", "sun", " angle 0"),
+                      point = node("point_light", "point", " position 0 1.5 0\n radius 0");
+    EXPECT_LT(diffuse_rays(lamp + sun), to_sky / 8);
+    EXPECT_EQ(diffuse_rays(sun), 0U);
+    EXPECT_EQ(diffuse_rays(point), 0U);
     // Nor does it matter what else rays may pass on the way to no lamp.
     const std::string pane = node("standard_surface", "pane", " opacity 0.5 0.5 0.5") +
                              quad("aside", {3, 0, -1}, {3, 0, 1}, {3, 2, 1}, {3, 2, -1}, "pane");
