@@ -18,6 +18,8 @@ namespace lightsieve {
 using Float4 = float __attribute__((vector_size(16)));
 /// What comparisons of Float4 give: -1 where they hold, else 0.
 using Int4 = std::int32_t __attribute__((vector_size(16)));
+/// Four words of bits.
+using Word4 = std::uint32_t __attribute__((vector_size(16)));
 
 constexpr Float4 all(float v) { return Float4{v, v, v, v}; }
 inline Float4 load(const std::array<float, 4>& lanes) {

@@ -5,9 +5,7 @@
 namespace lightsieve {
 namespace {
 
-/// Four words that one instruction takes at once (an extension that GCC and Clang share). Everything below is written once
-/// for a word and for four of them.
-using Word4 = std::uint32_t __attribute__((vector_size(16)));
+// Everything below is written once for a word and for four of them.
 using Byte16 = std::uint8_t __attribute__((vector_size(16)));
 
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {

@@ -37,8 +37,10 @@ inline constexpr std::uint32_t kMaskShadowTransparent =
     constexpr float kOrigin = 1.0F / 32, kFloatScale = 1.0F / 65536, kIntScale = 256;
     // All coordinates at once: every ray that leaves a surface asks.
     const Float4 from{p.x, p.y, p.z, 0}, along{n.x, n.y, n.z, 0};
+    // As words, which may wrap: -0 has no step further down. Where that happens the sum is not used.
     const Int4 steps = __builtin_convertvector(along * kIntScale, Int4);
-    const Int4 moved = __builtin_bit_cast(Int4, from) + (from < 0 ? -steps : steps);
+    const Word4 moved =
+        __builtin_bit_cast(Word4, from) + __builtin_bit_cast(Word4, from < 0 ? -steps : steps);
     const Int4 near_zero = (from < kOrigin) & (from > -kOrigin);
     const Float4 to = near_zero ? from + along * kFloatScale : __builtin_bit_cast(Float4, moved);
     return {to[0], to[1], to[2]};
