@@ -63,7 +63,7 @@ float ClosureSet::indirect_of(const LobeRecord& record) const {
 }
 
 void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame,
-                     bool caustics, const Color* albedo) {
+                     bool caustics, const std::optional<Color>& albedo) {
     const Color total = valid_weight(scale_ * weight);
     if (is_black(total)) return;
     if (n_ == kMaxClosures) {
@@ -80,8 +80,7 @@ void ClosureSet::add(int lobe, const LobeModel& model, Color weight, std::uint8_
     out.caustics = caustics;
     out.indirect = indirect_of(made);
     out.direct_light = indirect_.direct_light;
-    out.knows_albedo = albedo != nullptr;
-    if (out.knows_albedo) out.model_albedo = *albedo;
+    out.albedo = albedo;
 }
 
 void ClosureSet::add_subsurface(int lobe, const SubsurfaceMedium& medium, Color weight) {
@@ -171,7 +170,7 @@ LobeSample ClosureSet::sample(std::size_t i, Vec2f u, float u_choice) const noex
 
 Color ClosureSet::albedo(std::size_t i) const noexcept {
     const Closure& c = closures_[i];
-    if (c.knows_albedo) return c.weight * c.model_albedo;
+    if (c.albedo) return c.weight * *c.albedo;
     return c.weight *
            visit_lobe([&](const auto& model) { return model.albedo(wo_local_[c.frame]); },
                       c.model);

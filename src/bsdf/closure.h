@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <variant>
 
@@ -42,10 +43,9 @@ struct Closure {
     std::uint8_t frame = 0;  ///< into the set's frames
     /// Specular lobes with the shader's `caustics` off are dead at vertices that a diffuse ray reached.
     bool caustics = true;
-    float indirect = 1;         ///< factor on indirect light
-    bool direct_light = true;   ///< false: lights do not reach it directly
-    bool knows_albedo = false;  ///< the shader had worked it out
-    Color model_albedo{};       ///< if so: of the model, for the viewer's direction
+    float indirect = 1;             ///< factor on indirect light
+    bool direct_light = true;       ///< false: lights do not reach it directly
+    std::optional<Color> albedo{};  ///< of the model, for the viewer's direction: if it is known
 };
 
 struct Emission {
@@ -123,9 +123,9 @@ class ClosureSet {
     }
     /// The same with a frame made by add_frame.
     ///
-    /// albedo  of the model for `local_wo(frame)`, if the shader knows it: it need not be worked out again; or null
+    /// albedo  of the model for `local_wo(frame)`, if the shader knows it: it need not be worked out again
     void add(int lobe, const LobeModel& model, Color weight, std::uint8_t frame, bool caustics,
-             const Color* albedo = nullptr);
+             const std::optional<Color>& albedo = {});
     /// Registers a frame (turned to the side of the first one); returns its number.
     std::uint8_t add_frame(const Frame& frame);
     /// Adds subsurface scattering through lobe number `lobe` of the shader.

@@ -45,6 +45,7 @@ inline Float4 smaller(Float4 a, Float4 b) {
     return a < b ? a : b;
 #endif
 }
+/// Absolute values.
 inline Float4 magnitude(Float4 v) {
     return __builtin_bit_cast(Float4, __builtin_bit_cast(Int4, v) & 0x7fff'ffff);
 }

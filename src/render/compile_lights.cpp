@@ -178,6 +178,7 @@ void Compiler::add_light(const NodeInstance& node, std::unique_ptr<Light> made,
                          !is_black(light.common.shadow_color);
     light.n_samples = std::max(1, squared_samples(light.common.samples));
     light.n_volume_samples = std::max(1, squared_samples(light.common.volume_samples));
+    // Rays meet what has an extent.
     const bool infinite = light.light->infinite();
     const bool can_be_met = infinite ? !light.light->sample({}, {0.5F, 0.5F}).delta
                                      : light.light->geometry() != nullptr;

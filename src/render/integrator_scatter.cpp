@@ -127,11 +127,9 @@ bool Integrator<Tracker>::scatter(const Surface& surface, std::size_t drawn, Ray
             all += std::exchange(factor, Color{});
         factors[channel_of_[drawn]] = all;
     }
-    if (closures_.disperses()) {
-        const Color wavelength = color_of_wavelength(surface, sample.wi);
-        for (Color& factor : factors)
-            factor *= wavelength;
-    }
+    const Color wavelength = color_of_wavelength(surface, sample.wi);
+    for (Color& factor : factors)
+        factor *= wavelength;
     const LightPlan plan = light_plan(*surface.object->lights, surface.in_medium);
     const float carried = recorder_ != nullptr ? luminance(path_.groups.total()) : 0;
     if (!advance(factors, drawn) || !is_worth_a_ray()) return false;

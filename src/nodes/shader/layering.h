@@ -88,7 +88,7 @@ class LayerLobe {
           albedo_(visit_lobe([&](const auto& lobe) { return lobe.albedo(frame.wo); }, model)) {}
     /// As ClosureSet::add.
     void add_to(ClosureSet& out, int lobe, Color weight, bool caustics) const {
-        out.add(lobe, model_, weight, frame_, caustics, &albedo_);
+        out.add(lobe, model_, weight, frame_, caustics, albedo_);
     }
     /// 1 - weight * E, what the layer leaves to those below.
     [[nodiscard]] Color leaves(Color weight = kWhite) const {

@@ -242,10 +242,10 @@ TEST(SurfaceProperties, LayersKnowTheAlbedoOfTheirOwnLobe) {
             if (k > 0) draw_all(node, random);
             const Shaded s(node, {0.4F, k % 3 != 0, k % 2 != 0, false});
             for (const Closure& c : s.set.closures()) {
-                if (!c.knows_albedo) continue;
+                if (!c.albedo) continue;
                 ++n_known;
                 const Vec3f wo = s.set.local_wo(c.frame);
-                EXPECT_EQ(c.model_albedo,
+                EXPECT_EQ(*c.albedo,
                           std::visit([&](const auto& m) { return m.albedo(wo); }, c.model))
                     << type.name.str() << " set " << k;
             }
